@@ -1,0 +1,35 @@
+//! `clip`: parts of a volume that are taken away before it is seen or casts a shadow (the paper's figure 11).
+
+use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Half-spaces and a box that are cut out of a volume, in world coordinates.
+///
+/// The cut is band-limited: opacity falls from whole to none over one voxel, so that a cut face shows no stairs.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Clip {
+    /// Planes `[a, b, c, d]`: what lies where `a x + b y + c z > d` is taken away.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub planes: Vec<[f64; 4]>,
+    /// A box `[[x, y, z], [x, y, z]]` (two opposite corners) whose inside is taken away.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub r#box: Option<[[f64; 3]; 2]>,
+}
+
+impl Clip {
+    /// How far inside the kept part a point lies, world units; negative inside what is taken away.
+    #[must_use]
+    pub fn distance(&self, point: DVec3) -> f64 {
+        let planes = self.planes.iter().map(|&[a, b, c, d]| {
+            let normal = DVec3::new(a, b, c);
+            (d - normal.dot(point)) / normal.length()
+        });
+        let outside_box = self.r#box.map(|[p, q]| {
+            let (low, high) = (DVec3::from(p).min(q.into()), DVec3::from(p).max(q.into()));
+            (low - point).max(point - high).max_element()
+        });
+        planes.chain(outside_box).fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,64 @@
+//! `light` and what it may carry: `casts_shadow`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Color;
+
+/// A directional light.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Light {
+    /// The direction towards the light, world coordinates, any length above 0; or `"observer"` for a head light.
+    pub toward: Toward,
+    /// Strength, 0 or above; 1 lights a facing white surface to `diffuse`.
+    #[serde(default = "one")]
+    pub strength: f32,
+    /// Colour of the light.
+    #[serde(default = "white")]
+    pub color: Color,
+}
+
+/// Where a light is.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Toward {
+    /// A direction in world coordinates.
+    Direction([f64; 3]),
+    /// At the observer: shading then depends on the view.
+    Observer(Observer),
+}
+
+/// The word `observer`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Observer {
+    /// The light turns with the view.
+    Observer,
+}
+
+/// Brings in a light-strength buffer: the light is weakened by what lies between it and a voxel (paper §4).
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CastsShadow {
+    /// The strength used at a voxel is that of a point so many voxels nearer to the light.
+    pub bias_voxels: f64,
+    /// k_1 of the falloff `1 / (k_1 + k_2 d)`.
+    pub k1: f64,
+    /// k_2, per world unit of distance from where the light enters the volume's bounding sphere.
+    pub k2: f64,
+}
+
+impl Default for CastsShadow {
+    fn default() -> Self {
+        Self { bias_voxels: 2.0, k1: 1.0, k2: 0.0 }
+    }
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+fn white() -> Color {
+    Color::WHITE
+}

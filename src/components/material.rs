@@ -1,0 +1,53 @@
+//! `material`: how the voxels of a volume answer light; `depth_cue`: how colours fade with distance (algorithm §3).
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Color;
+
+/// The coefficients of Levoy's shading model for a volume.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Material {
+    /// c_p where the classification states no colour of its own.
+    pub color: Color,
+    /// k_a in 0..=1.
+    pub ambient: f32,
+    /// k_d in 0..=1.
+    pub diffuse: f32,
+    /// k_s in 0..=1. Above 0 the shading depends on the observer: a turn of the view then shades again.
+    pub specular: f32,
+    /// n, at least 1.
+    pub shininess: f32,
+    /// Whether a surface answers light from behind it too.
+    pub two_sided: bool,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            color: Color::WHITE,
+            ambient: 0.2,
+            diffuse: 0.8,
+            specular: 0.0,
+            shininess: 20.0,
+            two_sided: true,
+        }
+    }
+}
+
+/// `depth_cue` of a view: reflected light is divided by `k_1 + k_2 d`, d = distance along the view from the near side of
+/// the scene's bounding sphere, world units. Applied while rays are cast; ambient light is not cued.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DepthCue {
+    /// k_1, dimensionless.
+    #[serde(default = "one")]
+    pub k1: f64,
+    /// k_2, per world unit; `k1 + k2 d` must stay above 0 over the scene.
+    pub k2: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}

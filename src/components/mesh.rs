@@ -1,0 +1,64 @@
+//! `mesh`: many polygons that share one surface, stated by vertices and faces or by a shape.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Many flat polygons as one entity: exactly one of `faces` (with `vertices`), `ellipsoid` or `prism`.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mesh {
+    /// Vertices in world coordinates.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vertices: Vec<[f64; 3]>,
+    /// Each face: at least three indices into `vertices`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub faces: Vec<Vec<u32>>,
+    /// A triangulated ellipsoid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ellipsoid: Option<Ellipsoid>,
+    /// A closed prism.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prism: Option<Prism>,
+}
+
+/// An ellipsoid of `20 · 4^subdivisions` triangles, inscribed, with an optional smooth lumpiness.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ellipsoid {
+    /// Centre, world.
+    pub center: [f64; 3],
+    /// Semi-axes along x, y and z, world units, above 0.
+    pub radii: [f64; 3],
+    /// 0 (an icosahedron) to 6.
+    #[serde(default = "three")]
+    pub subdivisions: u32,
+    /// Relative height of smooth lumps, 0 (none) to 0.5: a tumour is no egg.
+    #[serde(default)]
+    pub lumpiness: f64,
+}
+
+/// A prism: a regular profile swept from one point to another, closed at both ends.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Prism {
+    /// Centre of the first end, world.
+    pub from: [f64; 3],
+    /// Centre of the last end, world.
+    pub to: [f64; 3],
+    /// Radius of the profile's circumscribed circle at the first end, world units.
+    pub radius: f64,
+    /// Radius at the last end; default: `radius`. A beam diverges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to_radius: Option<f64>,
+    /// Sides of the profile, 3 to 256.
+    #[serde(default = "four")]
+    pub sides: u32,
+}
+
+fn three() -> u32 {
+    3
+}
+
+fn four() -> u32 {
+    4
+}

@@ -1,0 +1,33 @@
+//! What a scene states: plain data, a component a key, one entity a table. No system changes any of it.
+//!
+//! Units are in the key or its description; colours are sRGB as written and linear once read ([`Color`]).
+
+mod classify;
+mod clip;
+pub mod color;
+mod light;
+mod material;
+mod mesh;
+mod polygon;
+mod sampling;
+mod view;
+mod volume;
+
+pub use classify::{Classify, Contour, Material as ClassifyMaterial, Tissue, TransferPoint};
+pub use clip::Clip;
+pub use color::Color;
+pub use light::{CastsShadow, Light, Observer, Toward};
+pub use material::{DepthCue, Material};
+pub use mesh::{Ellipsoid, Mesh, Prism};
+pub use polygon::{Matte, Polygon, Surface, Voxelize};
+pub use sampling::{Filter, PixelFilter, Sampling, Skip, TexelKind};
+pub use view::View;
+pub use volume::Volume;
+
+/// The name of an entity, unique in its scene.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Name(pub String);
+
+/// The place of an entity in its scene: ties in depth are broken by it, and matting follows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Order(pub u32);

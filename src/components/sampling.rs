@@ -1,0 +1,110 @@
+//! `sampling`: where speed is traded for accuracy; each key is a knob that `trade` sweeps.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How densely a view samples its scene, and when it stops. Equal settings give equal bytes.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sampling {
+    /// Δ: distance between samples along a ray, world units, above 0; default: the smallest voxel spacing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance_mm: Option<f64>,
+    /// What steps over empty space; lossless.
+    pub skip: Skip,
+    /// ε_T: a ray stops when what is behind can add no more than this to any channel; 0 = never, below 1.
+    pub stop_at: f32,
+    /// ε_C: a region whose corners differ in C by more than this in any channel is split; 0 = always.
+    pub tolerance: f32,
+    /// ε_G: below a ray a pixel a region is split only if both C_G and C_A range by more than this.
+    pub edge_tolerance: f32,
+    /// ω_max: positions between the first rays, a power of two 1..=32; 4 = one ray a pixel.
+    pub coarsest: u32,
+    /// ω_min: positions between the last rays, a power of two 1..=`coarsest`.
+    pub finest: u32,
+    /// Whether regions that outlines of polygons cross are split to one ray a pixel from the start.
+    pub outlines: bool,
+    /// In which numbers the gel is kept.
+    pub texel: TexelKind,
+    /// How the volume is resampled between voxels.
+    pub filter: Filter,
+    /// What a pixel is of the positions around it.
+    pub pixel_filter: PixelFilter,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self {
+            distance_mm: None,
+            skip: Skip::Pyramid,
+            stop_at: 0.02,
+            tolerance: 0.02,
+            edge_tolerance: 0.02,
+            coarsest: 8,
+            finest: 1,
+            outlines: true,
+            texel: TexelKind::F32,
+            filter: Filter::Linear,
+            pixel_filter: PixelFilter::Box,
+        }
+    }
+}
+
+impl Sampling {
+    /// The settings of `--exact`: no skipping, no stopping, a ray at every position, 32-bit texels; Δ as it was.
+    #[must_use]
+    pub fn exact(&self) -> Self {
+        Self {
+            skip: Skip::None,
+            stop_at: 0.0,
+            tolerance: 0.0,
+            edge_tolerance: 0.0,
+            coarsest: 1,
+            finest: 1,
+            texel: TexelKind::F32,
+            ..self.clone()
+        }
+    }
+}
+
+/// What steps over empty space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Skip {
+    /// The pyramid of binary volumes (paper §6).
+    Pyramid,
+    /// Nothing: every sample of the domain is taken.
+    None,
+}
+
+/// The numbers that the gel's associated RGBA is kept in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum TexelKind {
+    /// 32-bit floats: 16 bytes a voxel.
+    F32,
+    /// 16-bit fixed point, error 2⁻¹⁷ a channel: 8 bytes a voxel.
+    U16,
+    /// 8-bit fixed point, error 2⁻⁹ a channel: 4 bytes a voxel.
+    U8,
+}
+
+/// How the volume is resampled between voxels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Filter {
+    /// Tri-linear interpolation of associated colour and opacity, as in the paper.
+    Linear,
+}
+
+/// How the positions around a pixel become its colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum PixelFilter {
+    /// The mean over the pixel.
+    Box,
+    /// A tent two pixels wide.
+    Tent,
+    /// Mitchell and Netravali 1988, four pixels wide.
+    Mitchell,
+}

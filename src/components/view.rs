@@ -1,0 +1,43 @@
+//! `view`: an observer at infinity and the window that is seen (algorithm §1).
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Color;
+
+/// A parallel view. At azimuth 0 and elevation 0 the observer looks along +y (a patient in LPS is seen from the front).
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct View {
+    /// Turn of the observer about +z through the focal point, degrees.
+    pub azimuth: f64,
+    /// Height of the observer above the xy plane, degrees, −90..=90.
+    pub elevation: f64,
+    /// Turn of the picture about the line of sight, degrees.
+    pub roll: f64,
+    /// The world point in the middle of the window; default: the centre of the scene's bounding box.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub focal_point: Option<[f64; 3]>,
+    /// Height of the window in world units, above 0; default: the diameter of the scene's bounding sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_mm: Option<f64>,
+    /// Pixels across and down, each 1 to 16384.
+    pub size: [u32; 2],
+    /// What lies behind everything; default: nothing (transparent).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub background: Option<Color>,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            azimuth: 0.0,
+            elevation: 0.0,
+            roll: 0.0,
+            focal_point: None,
+            height_mm: None,
+            size: [380, 380],
+            background: None,
+        }
+    }
+}

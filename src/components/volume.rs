@@ -1,0 +1,30 @@
+//! `volume`: where the voxels come from and what their opacity means.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A volume of voxels: a file, or a phantom made by formula.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Volume {
+    /// A path, relative to the scene's folder or to the data folder; or `phantom:NAME`.
+    pub file: String,
+    /// What is rendered, with a warning, where the file is not found: another path or `phantom:NAME`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand_in: Option<String>,
+    /// Thickness of the slab that a voxel's opacity is stated for, world units (u in equation 2); default: the smallest spacing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub opacity_unit_mm: Option<f64>,
+    /// For a headerless file (`.raw`): voxels on each axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<[usize; 3]>,
+    /// For a headerless file: its number type, as NRRD names it (`uint8`, `uint16`, `float`, …).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub voxel_type: Option<String>,
+    /// For a headerless file of more than one byte a voxel: `little` or `big`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub endian: Option<String>,
+    /// Spacing in world units that replaces the file's own; negative flips the axis about the volume's centre.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing_mm: Option<[f64; 3]>,
+}

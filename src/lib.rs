@@ -1,0 +1,10 @@
+//! gelray renders mixtures of volumes and polygons as coloured, semi-transparent gel.
+
+pub mod components;
+pub mod error;
+pub mod formats;
+pub mod grid;
+pub mod phantom;
+pub mod scene;
+
+pub use error::Error;

@@ -1,0 +1,2 @@
+//! The `gelray` program.
+fn main() {}
