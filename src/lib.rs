@@ -2,9 +2,11 @@
 
 pub mod components;
 pub mod error;
+pub mod face;
 pub mod formats;
 pub mod grid;
 pub mod phantom;
+pub mod picture;
 pub mod scene;
 
 pub use error::Error;

@@ -10,6 +10,7 @@ mod material;
 mod mesh;
 mod polygon;
 mod sampling;
+mod texture;
 mod view;
 mod volume;
 
@@ -21,6 +22,7 @@ pub use material::{DepthCue, Material};
 pub use mesh::{Ellipsoid, Mesh, Prism};
 pub use polygon::{Matte, Polygon, Surface, Voxelize};
 pub use sampling::{Filter, PixelFilter, Sampling, Skip, TexelKind};
+pub use texture::{Projects, Texture, TextureFilter, Textured, Wrap};
 pub use view::View;
 pub use volume::Volume;
 

@@ -1,0 +1,92 @@
+//! `texture` and its two uses: `textured` on a polygon (paper §5) and `projects` on a light (paper §4).
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An image that polygons and lights may name: exactly one of `file` or `formula`.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Texture {
+    /// A PNG, JPEG, TIFF or EXR; relative to the scene's folder or to the data folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// The formula that is used, with a warning, where the file is not found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand_in: Option<String>,
+    /// A texture made by formula: `grid`, `checker`, `portrait` or `disc`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formula: Option<String>,
+}
+
+/// Maps a texture onto the polygons of an entity, in the hybrid ray tracer only.
+///
+/// The texture's colour multiplies the surface's colour, its alpha the surface's opacity.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Textured {
+    /// The name of an entity with a `texture`, or of a formula.
+    pub texture: String,
+    /// World points of the texture's top left, top right and bottom left corners; default: the polygon's first, second and last vertex.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corners: Option<[[f64; 3]; 3]>,
+    /// How many times the texture is laid across and down between those corners, each above 0.
+    #[serde(default = "once")]
+    pub repeats: [f64; 2],
+    /// What lies outside the texture.
+    #[serde(default)]
+    pub wrap: Wrap,
+    /// How a pixel's footprint is averaged over it.
+    #[serde(default)]
+    pub filter: TextureFilter,
+}
+
+/// What lies outside a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Wrap {
+    /// The texture again.
+    #[default]
+    Repeat,
+    /// Its outermost texels.
+    Clamp,
+    /// Nothing: opacity 0.
+    Vanish,
+}
+
+/// How a footprint is averaged over a texture, from the reference to the cheapest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum TextureFilter {
+    /// Elliptical weighted average over the exact footprint (Heckbert 1989).
+    #[default]
+    Ellipse,
+    /// Two levels of a mip map, each bilinear.
+    Trilinear,
+    /// The four nearest texels.
+    Bilinear,
+    /// The nearest texel.
+    Nearest,
+}
+
+/// A slide in front of a light: the initial light strengths are the luminance of a texture.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Projects {
+    /// The name of an entity with a `texture`, or of a formula.
+    pub texture: String,
+    /// Width and height of the texture in the plane perpendicular to the light, world units.
+    pub size_mm: [f64; 2],
+    /// A world point that the middle of the texture falls on; default: the centre of the volume.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<[f64; 3]>,
+    /// The direction that the texture's top points to, as near as the light's plane allows; default +z.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub up: Option<[f64; 3]>,
+    /// What lies outside the texture: `vanish` is no light.
+    #[serde(default)]
+    pub wrap: Wrap,
+}
+
+fn once() -> [f64; 2] {
+    [1.0, 1.0]
+}

@@ -1,0 +1,128 @@
+//! Flat polygons in the world, checked: a plane, an outline and holes (algorithm §4).
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+/// How far a vertex may lie from the plane of its polygon, as a part of the polygon's extent.
+const OUT_OF_PLANE: f64 = 1e-4;
+
+/// A planar polygon, simple, convex or concave, with any number of holes. World coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    /// Unit normal, to the side from which the outline runs counter-clockwise.
+    pub normal: DVec3,
+    /// The mean of the outline's vertices: a point of the plane.
+    pub center: DVec3,
+    /// The outline first, then the holes; each at least three vertices.
+    pub outlines: Vec<Vec<DVec3>>,
+}
+
+/// The faces of one entity, in the order stated; shared by pointer, equality is identity.
+#[derive(Debug, Clone)]
+pub struct Faces(pub Arc<Vec<Face>>);
+
+impl PartialEq for Faces {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Face {
+    /// A polygon with its holes, checked: at least three vertices an outline, finite, of some area, and in one plane.
+    ///
+    /// The error is a sentence without a subject, for the caller to put the entity's name before it.
+    pub fn new(outlines: Vec<Vec<DVec3>>) -> Result<Self, String> {
+        let Some(outline) = outlines.first() else {
+            return Err("a polygon without an outline; state at least 3 vertices".to_owned());
+        };
+        if let Some(short) = outlines.iter().find(|o| o.len() < 3) {
+            return Err(format!(
+                "an outline of {} vertices encloses nothing; a polygon needs at least 3",
+                short.len()
+            ));
+        }
+        if outlines.iter().flatten().any(|v| !v.is_finite()) {
+            return Err("a vertex is not finite; state numbers of the world's units".to_owned());
+        }
+        let center = outline.iter().sum::<DVec3>() / outline.len() as f64;
+        let extent = outlines.iter().flatten().map(|v| v.distance(center)).fold(0.0, f64::max);
+        let normal = doubled_area(outline, center);
+        if normal.length() <= 1e-12 * extent * extent || extent == 0.0 {
+            return Err("its vertices lie on one line; a polygon needs an area".to_owned());
+        }
+        let normal = normal.normalize();
+        let out = |v: &&DVec3| normal.dot(**v - center).abs() > OUT_OF_PLANE * extent;
+        if let Some(vertex) = outlines.iter().flatten().find(out) {
+            return Err(format!(
+                "vertex [{}, {}, {}] is {:.3e} out of the polygon's plane, more than 1e-4 of its extent; split it into triangles",
+                vertex.x,
+                vertex.y,
+                vertex.z,
+                normal.dot(*vertex - center).abs()
+            ));
+        }
+        Ok(Self { normal, center, outlines })
+    }
+}
+
+/// Newell's sum: a vector along the normal, as long as twice the area of the outline.
+fn doubled_area(outline: &[DVec3], center: DVec3) -> DVec3 {
+    let next = outline.iter().cycle().skip(1);
+    outline.iter().zip(next).map(|(p, q)| (*p - center).cross(*q - center)).sum()
+}
+
+/// The bounding box of everything in a scene: the domain of its volume and the vertices of its polygons. World units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// The corner of least coordinates.
+    pub low: DVec3,
+    /// The corner of greatest coordinates.
+    pub high: DVec3,
+}
+
+impl Extent {
+    /// The bounding box of some points; `None` for no points.
+    pub fn of(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
+        points.into_iter().fold(None, |extent, p| {
+            let Self { low, high } = extent.unwrap_or(Self { low: p, high: p });
+            Some(Self { low: low.min(p), high: high.max(p) })
+        })
+    }
+
+    /// The middle of the box.
+    #[must_use]
+    pub fn center(&self) -> DVec3 {
+        (self.low + self.high) / 2.0
+    }
+
+    /// The radius of the box's bounding sphere.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.low.distance(self.high) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(z: f64) -> Vec<DVec3> {
+        [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| DVec3::new(x, y, z)).to_vec()
+    }
+
+    #[test]
+    fn a_normal_points_to_the_side_that_sees_the_outline_run_counter_clockwise() {
+        assert_eq!(Face::new(vec![square(3.0)]).unwrap().normal, DVec3::Z);
+    }
+
+    #[test]
+    fn two_vertices_a_line_and_a_bent_square_are_refused_with_a_remedy() {
+        let line = (0..4).map(|i| DVec3::splat(f64::from(i))).collect();
+        let mut bent = square(0.0);
+        bent[2].z = 0.1;
+        assert!(Face::new(vec![square(0.0)[..2].to_vec()]).unwrap_err().contains("at least 3"));
+        assert!(Face::new(vec![line]).unwrap_err().contains("area"));
+        assert!(Face::new(vec![bent]).unwrap_err().contains("triangles"));
+    }
+}
