@@ -5,6 +5,7 @@ pub mod error;
 pub mod face;
 pub mod formats;
 pub mod grid;
+pub mod measure;
 pub mod phantom;
 pub mod picture;
 pub mod scene;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::grid::{Grid, Painted, Scalars};
+use crate::picture::Picture;
 
 /// What a volume file held: where its voxels are, and what they are.
 #[derive(Debug, Clone)]
@@ -27,5 +28,10 @@ pub enum Voxels {
 
 /// Reads a volume of any known format.
 pub fn read_volume(path: &Path) -> Result<Loaded, Error> {
+    Err(Error::file(path, "no format is known yet"))
+}
+
+/// Reads a picture of any known format, as linear associated RGBA.
+pub fn read_picture(path: &Path) -> Result<Picture, Error> {
     Err(Error::file(path, "no format is known yet"))
 }
