@@ -33,3 +33,7 @@ pub struct Name(pub String);
 /// The place of an entity in its scene: ties in depth are broken by it, and matting follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Order(pub u32);
+
+/// u, the thickness of the slab that a voxel's opacity is stated for: world units, above 0; resolved from [`Volume`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OpacityUnit(pub f64);

@@ -1,0 +1,75 @@
+use super::*;
+
+fn extent() -> Extent {
+    Extent { low: DVec3::splat(-10.0), high: DVec3::splat(10.0) }
+}
+
+fn camera(azimuth: f64, elevation: f64, roll: f64) -> Camera {
+    Camera::new(&View { azimuth, elevation, roll, ..View::default() }, &extent())
+}
+
+#[test]
+fn the_default_view_looks_along_y_with_z_up_and_x_to_the_right() {
+    let camera = camera(0.0, 0.0, 0.0);
+    assert_eq!([camera.forward, camera.right, camera.up], [DVec3::Y, DVec3::X, DVec3::Z]);
+    assert!(camera.origin(DVec2::ZERO).z > 0.0 && camera.origin(DVec2::ZERO).x < 0.0);
+}
+
+#[test]
+fn from_above_the_top_of_the_picture_is_the_back() {
+    let camera = camera(0.0, 90.0, 0.0);
+    assert_eq!([camera.forward, camera.right, camera.up], [-DVec3::Z, DVec3::X, DVec3::Y]);
+}
+
+#[test]
+fn a_projected_point_comes_back() {
+    let camera = camera(33.0, -20.0, 12.0);
+    let point = DVec3::new(1.0, -7.0, 3.5);
+    let (window, depth) = camera.project(point);
+    assert!((camera.origin(window) + camera.forward * depth).distance(point) < 1e-12);
+    let moved = camera.project(point + DVec3::X).0 - window;
+    assert!((window_from_world(&camera) * DVec3::X).truncate().distance(moved) < 1e-12);
+}
+
+#[test]
+fn the_samples_of_a_ray_are_those_within_the_domain() {
+    let grid = Grid::axis_aligned([9, 17, 5], [2.0, 1.0, -3.0], [-8.0, -8.0, 6.0]).unwrap();
+    for (azimuth, elevation) in [(0.0, 0.0), (90.0, 0.0), (45.0, 35.0), (200.0, -80.0), (0.0, 90.0)]
+    {
+        let camera = camera(azimuth, elevation, 0.0);
+        let walk = Walk::new(&grid, &camera, 0.25).unwrap();
+        let origin = camera.origin(DVec2::new(190.0, 190.0));
+        let samples = walk.enter(origin).unwrap();
+        let place = |k: i64| {
+            let world = origin + camera.forward * (0.25 * (k as f64 + 0.5));
+            grid.world_to_index().transform_point3(world)
+        };
+        let outside = |k: i64| {
+            let last = DVec3::from(grid.size.map(|n| (n - 1) as f64));
+            (-place(k)).max(place(k) - last).max_element()
+        };
+        assert!(outside(samples.first - 1) > -1e-9 && outside(samples.end) > -1e-9);
+        assert!(outside(samples.first) < 1e-9 && outside(samples.end - 1) < 1e-9);
+        let first = DVec3::from(samples.at.map(|p| p as f64 / UNIT));
+        assert!(first.distance(place(samples.first)) < 1e-9);
+    }
+}
+
+#[test]
+fn a_ray_beside_the_domain_meets_no_sample() {
+    let grid = Grid::axis_aligned([5; 3], [1.0; 3], [-2.0; 3]).unwrap();
+    let camera = camera(0.0, 0.0, 0.0);
+    let walk = Walk::new(&grid, &camera, 1.0).unwrap();
+    assert_eq!(walk.enter(DVec3::new(2.001, 0.0, 0.0)), None);
+    let along_the_face = walk.enter(DVec3::new(2.0, 0.0, 0.0)).unwrap();
+    assert_eq!(along_the_face.end - along_the_face.first, 4);
+}
+
+#[test]
+fn a_step_too_small_or_too_large_is_refused_with_a_remedy() {
+    let grid = Grid::axis_aligned([5; 3], [1.0; 3], [0.0; 3]).unwrap();
+    for distance in [1e-14, 1e9, f64::NAN] {
+        let refused = Walk::new(&grid, &camera(0.0, 0.0, 0.0), distance).unwrap_err();
+        assert!(refused.contains("sampling.distance_mm"));
+    }
+}

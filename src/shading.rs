@@ -1,0 +1,166 @@
+//! Levoy's shading model for voxels and polygons alike, with any number of directional lights (algorithm §3).
+
+use glam::{DVec3, Vec3};
+use hecs::{Entity, World};
+
+use crate::components::{CastsShadow, Light, Material, Order, Surface, Toward};
+
+/// How something answers light: the coefficients of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reflectance {
+    /// k_a in 0..=1.
+    pub ambient: f32,
+    /// k_d in 0..=1.
+    pub diffuse: f32,
+    /// k_s in 0..=1.
+    pub specular: f32,
+    /// n, at least 1.
+    pub shininess: f32,
+    /// Whether the normal is turned to the light's side.
+    pub two_sided: bool,
+}
+
+impl From<&Material> for Reflectance {
+    fn from(m: &Material) -> Self {
+        let Material { ambient, diffuse, specular, shininess, two_sided, .. } = *m;
+        Self { ambient, diffuse, specular, shininess, two_sided }
+    }
+}
+
+impl From<&Surface> for Reflectance {
+    fn from(s: &Surface) -> Self {
+        let Surface { ambient, diffuse, specular, shininess, two_sided, .. } = *s;
+        Self { ambient, diffuse, specular, shininess, two_sided }
+    }
+}
+
+/// A light as it falls on a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lamp {
+    /// Unit vector towards the light, world.
+    pub toward: Vec3,
+    /// H: the unit vector half-way between the light and the observer.
+    pub half: Vec3,
+    /// Linear colour times strength.
+    pub light: Vec3,
+}
+
+/// The lights of a scene, in its order: those that cast no shadow, and those that do.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Lamps {
+    /// Lights with β = 1 everywhere.
+    pub plain: Vec<Lamp>,
+    /// Lights with a strength of their own at every voxel.
+    pub shadowed: Vec<(Entity, Lamp)>,
+}
+
+impl Lamps {
+    /// The lights of `world` for an observer in direction `observer` (unit vector from the scene towards him).
+    #[must_use]
+    pub fn of(world: &World, observer: DVec3) -> Self {
+        let mut query = world.query::<(Entity, &Light, &Order, Option<&CastsShadow>)>();
+        let mut lights: Vec<_> = query.iter().collect();
+        lights.sort_by_key(|(_, _, order, _)| **order);
+        let mut lamps = Self::default();
+        for (entity, light, _, shadow) in lights {
+            let lamp = Lamp::new(light, observer);
+            if shadow.is_some() {
+                lamps.shadowed.push((entity, lamp));
+            } else {
+                lamps.plain.push(lamp);
+            }
+        }
+        lamps
+    }
+}
+
+impl Lamp {
+    /// A light as it falls on a scene seen from direction `observer`.
+    #[must_use]
+    pub fn new(light: &Light, observer: DVec3) -> Self {
+        let toward = toward(light, observer);
+        Self {
+            toward: toward.as_vec3(),
+            half: (toward + observer).normalize_or_zero().as_vec3(),
+            light: light.color.0 * light.strength,
+        }
+    }
+
+    /// What a surface of colour `color` and unit normal `normal` reflects of this light towards the observer:
+    /// `c_p (k_d max(N·L, 0) + k_s max(N·H, 0)^n)` times the light. A zero normal reflects nothing; never NaN.
+    #[must_use]
+    pub fn reflected(&self, color: Vec3, normal: Vec3, how: &Reflectance) -> Vec3 {
+        let facing = normal.dot(self.toward);
+        let side = if how.two_sided && facing < 0.0 { -1.0 } else { 1.0 };
+        let diffuse = how.diffuse * (side * facing).max(0.0);
+        let glint = side * normal.dot(self.half);
+        let specular = if how.specular > 0.0 && facing != 0.0 && glint > 0.0 {
+            how.specular * libm::powf(glint, how.shininess)
+        } else {
+            0.0
+        };
+        color * self.light * (diffuse + specular)
+    }
+}
+
+/// Unit vector towards a light for an observer in direction `observer`.
+#[must_use]
+pub fn toward(light: &Light, observer: DVec3) -> DVec3 {
+    match light.toward {
+        Toward::Direction(direction) => DVec3::from(direction).normalize_or_zero(),
+        Toward::Observer(_) => observer,
+    }
+}
+
+/// Whether light on something of this reflectance depends on where the observer stands: then a turn of the view shades again.
+#[must_use]
+pub fn depends_on_view(world: &World, how: &Reflectance) -> bool {
+    let mut lights = world.query::<&Light>();
+    let mut lights = lights.iter().peekable();
+    (how.specular > 0.0 && lights.peek().is_some())
+        || lights.any(|light| matches!(light.toward, Toward::Observer(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::components::{Color, Observer};
+
+    const MATT: Reflectance = Reflectance {
+        ambient: 0.2,
+        diffuse: 0.8,
+        specular: 0.0,
+        shininess: 20.0,
+        two_sided: false,
+    };
+
+    fn lamp(toward: Toward) -> Lamp {
+        Lamp::new(&Light { toward, strength: 0.5, color: Color::WHITE }, DVec3::NEG_Y)
+    }
+
+    #[test]
+    fn a_facing_surface_reflects_diffuse_times_strength_and_one_turned_away_nothing() {
+        let lamp = lamp(Toward::Direction([0.0, 0.0, 7.0]));
+        assert_eq!(lamp.reflected(Vec3::ONE, Vec3::Z, &MATT), Vec3::splat(0.4));
+        assert_eq!(lamp.reflected(Vec3::ONE, -Vec3::Z, &MATT), Vec3::ZERO);
+        let both = Reflectance { two_sided: true, ..MATT };
+        assert_eq!(lamp.reflected(Vec3::ONE, -Vec3::Z, &both), Vec3::splat(0.4));
+    }
+
+    #[test]
+    fn a_highlight_is_brightest_half_way_between_light_and_observer() {
+        let lamp = lamp(Toward::Direction([0.0, 0.0, 1.0]));
+        let shiny = Reflectance { diffuse: 0.0, specular: 1.0, ..MATT };
+        let at = |normal: Vec3| lamp.reflected(Vec3::ONE, normal.normalize(), &shiny).x;
+        assert!((at(Vec3::new(0.0, -1.0, 1.0)) - 0.5).abs() < 1e-5);
+        assert!(at(Vec3::new(0.0, -0.8, 1.0)) < 0.5 && at(Vec3::ZERO.with_z(1.0)) < 0.01);
+    }
+
+    #[test]
+    fn a_zero_normal_reflects_nothing_and_a_head_light_stands_at_the_observer() {
+        let lamp = lamp(Toward::Observer(Observer::Observer));
+        let shiny = Reflectance { specular: 1.0, ..MATT };
+        assert_eq!(lamp.reflected(Vec3::ONE, Vec3::ZERO, &shiny), Vec3::ZERO);
+        assert_eq!(lamp.toward, Vec3::NEG_Y);
+    }
+}
