@@ -1,10 +1,28 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
+mod mrc;
+mod nifti;
+mod nrrd;
+mod number;
+mod raw;
+mod stated;
+mod stream;
+
+#[cfg(test)]
+mod hostile_files;
+#[cfg(test)]
+mod made;
+#[cfg(test)]
+mod real_files;
+
 use std::path::Path;
+
+pub use stated::Stated;
 
 use crate::error::Error;
 use crate::grid::{Grid, Painted, Scalars};
 use crate::picture::Picture;
+use stream::Stream;
 
 /// What a volume file held: where its voxels are, and what they are.
 #[derive(Debug, Clone)]
@@ -26,12 +44,154 @@ pub enum Voxels {
     Painted(Painted),
 }
 
-/// Reads a volume of any known format.
-pub fn read_volume(path: &Path) -> Result<Loaded, Error> {
-    Err(Error::file(path, "no format is known yet"))
+/// A format of volume files: a row of [`FORMATS`].
+pub struct Format {
+    /// What people call it.
+    pub name: &'static str,
+    /// How its file names end, in lower case and without the first dot.
+    pub extensions: &'static [&'static str],
+    /// Whether a file that starts (once inflated) with these bytes, up to [`HEAD`] of them, is of this format;
+    /// `None` for a headerless format, which only its name tells.
+    recognizes: Option<fn(&[u8]) -> bool>,
+    /// Reads what the stream holds; the path is that of the file, for a format that names another file beside it.
+    ///
+    /// The error is a sentence without a subject, for the path to be put before it.
+    read: fn(Stream, &Path, &Stated) -> Result<Loaded, String>,
+}
+
+/// Bytes at the start of a file that tell its format: MRC has its word at 208, NIfTI at 344.
+const HEAD: usize = 352;
+
+/// The formats of volumes; one more is a file and a row.
+pub static FORMATS: &[Format] = &[
+    Format {
+        name: "NRRD",
+        extensions: &["nrrd", "nhdr"],
+        recognizes: Some(nrrd::recognizes),
+        read: nrrd::read,
+    },
+    Format {
+        name: "NIfTI",
+        extensions: &["nii", "nii.gz"],
+        recognizes: Some(nifti::recognizes),
+        read: nifti::read,
+    },
+    Format {
+        name: "MRC or CCP4",
+        extensions: &["mrc", "mrc.gz", "map", "map.gz", "ccp4", "ccp4.gz"],
+        recognizes: Some(mrc::recognizes),
+        read: mrc::read,
+    },
+    Format { name: "raw", extensions: &["raw", "raw.gz"], recognizes: None, read: raw::read },
+];
+
+/// Reads a volume of any format in [`FORMATS`]: by what it starts with, else by how its name ends.
+///
+/// A name that ends as a headerless file is believed, whatever its voxels look like. `stated` is what the scene says of
+/// the file: needed by headerless files, and its spacing replaces that of any file. Fails where the file is missing,
+/// of no known format, damaged, or promises more than it holds; nothing is allocated that the file does not back.
+pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
+    stated
+        .check()
+        .and_then(|()| Stream::open(path))
+        .and_then(|stream| read_stream(stream, path, stated))
+        .map_err(|problem| Error::file(path, problem))
+}
+
+fn read_stream(mut stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, String> {
+    let named = by_name(path);
+    let headerless = named.filter(|format| format.recognizes.is_none());
+    if headerless.is_none() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gz")) {
+        stream = stream.inflated_if_gzip()?;
+    }
+    let head = stream.peek(HEAD)?;
+    let format = headerless
+        .or_else(|| FORMATS.iter().find(|format| format.recognizes.is_some_and(|of| of(&head))))
+        .or(named)
+        .ok_or_else(unknown)?;
+    let mut loaded = (format.read)(stream, path, stated)?;
+    if headerless.is_none() {
+        loaded.warnings.extend(stated.unused());
+    }
+    Ok(loaded)
+}
+
+fn by_name(path: &Path) -> Option<&'static Format> {
+    let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+    let ends = |end: &&str| name.strip_suffix(*end).is_some_and(|stem| stem.ends_with('.'));
+    FORMATS.iter().find(|format| format.extensions.iter().any(ends))
+}
+
+fn unknown() -> String {
+    let known: Vec<String> = FORMATS
+        .iter()
+        .map(|format| format!("{} (.{})", format.name, format.extensions.join(", .")))
+        .collect();
+    format!(
+        "neither its first bytes nor its name are of a known format; expected one of {}; convert it, or name a headerless file .raw and state `size` and `voxel_type`",
+        known.join(", ")
+    )
 }
 
 /// Reads a picture of any known format, as linear associated RGBA.
 pub fn read_picture(path: &Path) -> Result<Picture, Error> {
     Err(Error::file(path, "no format is known yet"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(path: &Path) -> String {
+        read_volume(path, &Stated::default()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_missing_file_is_a_sentence_with_a_remedy() {
+        let said = problem(Path::new("nowhere/head.nrrd"));
+        assert!(said.contains("no such file") && said.contains("--data"), "{said}");
+    }
+
+    #[test]
+    fn a_folder_is_not_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(problem(folder.path()).contains("not a file"));
+    }
+
+    #[test]
+    fn an_unknown_file_names_the_formats_that_are_known() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("head.xyz");
+        std::fs::write(&path, b"hello").unwrap();
+        let said = problem(&path);
+        assert!(said.contains(".nhdr") && said.contains(".mrc"), "{said}");
+    }
+
+    #[test]
+    fn content_outweighs_the_name_except_for_headerless_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let bytes = b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n1 2 3 4 5 6 7 8\n";
+        let misnamed = folder.path().join("head.MRC");
+        std::fs::write(&misnamed, bytes).unwrap();
+        assert_eq!(read_volume(&misnamed, &Stated::default()).unwrap().grid.size, [2; 3]);
+        let raw = folder.path().join("head.raw");
+        std::fs::write(&raw, &bytes[..27]).unwrap();
+        let stated = Stated {
+            size: Some([3; 3]),
+            voxel_type: Some("uint8".to_owned()),
+            ..Stated::default()
+        };
+        assert_eq!(read_volume(&raw, &stated).unwrap().grid.size, [3; 3]);
+    }
+
+    #[test]
+    fn sizes_that_a_header_states_itself_are_warned_of() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("head.nrrd");
+        std::fs::write(&path, b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n1 2 3 4 5 6 7 8\n").unwrap();
+        let stated = Stated { size: Some([9; 3]), ..Stated::default() };
+        let loaded = read_volume(&path, &stated).unwrap();
+        assert_eq!(loaded.grid.size, [2; 3]);
+        assert!(loaded.warnings[0].contains("`size`"), "{:?}", loaded.warnings);
+    }
 }
