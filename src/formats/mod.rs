@@ -1,5 +1,8 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
+pub mod pictures;
+pub mod whole;
+
 use std::path::Path;
 
 use crate::error::Error;
@@ -33,5 +36,5 @@ pub fn read_volume(path: &Path) -> Result<Loaded, Error> {
 
 /// Reads a picture of any known format, as linear associated RGBA.
 pub fn read_picture(path: &Path) -> Result<Picture, Error> {
-    Err(Error::file(path, "no format is known yet"))
+    pictures::read_picture(path)
 }
