@@ -131,7 +131,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("out.json");
         let fail = |out: &mut dyn Sink| -> Result<(), Failure> {
-            out.write_all(&[7; 100_000])?;
+            out.write_all(&vec![7; 100_000])?;
             Err("the disc is full".into())
         };
         assert!(write_whole(&path, fail).unwrap_err().to_string().contains("the disc is full"));

@@ -1,3 +1,5 @@
 //! What is measured: histograms of volumes, errors between pictures, the cost of stages.
 
+pub mod error;
 pub mod histogram;
+mod ssim;

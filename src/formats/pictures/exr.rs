@@ -71,7 +71,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let meta = MetaData::read_from_buffered(bytes, false).map_err(|error| wrong("EXR", error))?;
     meta.headers.iter().try_for_each(check)?;
     let channels = |h: &Header, names: &[&str]| {
-        names.iter().all(|n| h.channels.list.iter().any(|c| c.name.eq(*n)))
+        names.iter().all(|n| h.channels.list.iter().any(|c| c.name.eq(n)))
     };
     let found = |names: &[&str]| meta.headers.iter().any(|header| channels(header, names));
     let layer = if found(&["R", "G", "B"]) {
@@ -115,7 +115,7 @@ fn read_rgba(bytes: &[u8]) -> exr::error::Result<Placed> {
         .rgba_channels(
             |size, _| Pixels::new(size),
             |pixels: &mut Pixels, at, (r, g, b, a): (f32, f32, f32, f32)| {
-                pixels.set(at, [r, g, b, a])
+                pixels.set(at, [r, g, b, a]);
             },
         )
         .first_valid_layer()

@@ -59,6 +59,7 @@ fn is_ended(bytes: &[u8]) -> bool {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
     use super::*;
 

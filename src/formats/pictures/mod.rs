@@ -27,6 +27,12 @@ pub use ray_map::write_ray_map;
 /// Named sentences that go with a picture (scene, settings, version, counts), in the order they are written.
 pub type Notes = [(String, String)];
 
+/// Makes a picture of a file's bytes; the failure is a sentence without a subject.
+pub type Reader = fn(&[u8]) -> Result<Picture, String>;
+
+/// Writes a picture and its notes.
+pub type Writer = fn(&mut dyn Sink, &Picture, &Notes) -> Result<(), Failure>;
+
 /// A format that pictures are read from, written to, or both.
 #[derive(Debug)]
 pub struct PictureFormat {
@@ -34,10 +40,10 @@ pub struct PictureFormat {
     pub name: &'static str,
     /// The ends of its files' names, in lower case; the first is the usual one.
     pub extensions: &'static [&'static str],
-    /// Makes a picture of a file's bytes; the failure is a sentence without a subject.
-    pub read: Option<fn(&[u8]) -> Result<Picture, String>>,
-    /// Writes a picture and its notes.
-    pub write: Option<fn(&mut dyn Sink, &Picture, &Notes) -> Result<(), Failure>>,
+    /// How it is read, if it is.
+    pub read: Option<Reader>,
+    /// How it is written, if it is.
+    pub write: Option<Writer>,
 }
 
 /// Every known format of pictures.
@@ -104,8 +110,6 @@ pub fn check_output(path: &Path) -> Result<(), Error> {
     writer(path)?;
     check_writable(path)
 }
-
-type Writer = fn(&mut dyn Sink, &Picture, &Notes) -> Result<(), Failure>;
 
 fn writer(path: &Path) -> Result<Writer, Error> {
     let write = format_of(path).and_then(|format| format.write);

@@ -39,6 +39,7 @@ pub fn write_ray_map(path: &Path, size: [usize; 2], cast: &[bool]) -> Result<(),
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
     use super::*;
     use crate::formats::pictures::read_picture;

@@ -20,18 +20,17 @@ fn written(format: &PictureFormat, picture: &Picture) -> Option<Vec<u8>> {
     Some(file.into_inner())
 }
 
+fn jpeg_file() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let encoder = ::image::codecs::jpeg::JpegEncoder::new(&mut bytes);
+    let color = |x, y| ::image::Rgb([x as u8 * 8, y as u8 * 9, 99]);
+    ::image::RgbImage::from_fn(29, 13, color).write_with_encoder(encoder).unwrap();
+    bytes
+}
+
 /// A file of each format that is read.
 fn files() -> Vec<(&'static PictureFormat, Vec<u8>)> {
-    let file = |format: &'static PictureFormat| match written(format, &picture()) {
-        Some(bytes) => (format, bytes),
-        None => {
-            let mut bytes = Vec::new();
-            let rgb =
-                image::RgbImage::from_fn(29, 13, |x, y| image::Rgb([x as u8 * 8, y as u8 * 9, 99]));
-            rgb.write_with_encoder(image::codecs::jpeg::JpegEncoder::new(&mut bytes)).unwrap();
-            (format, bytes)
-        }
-    };
+    let file = |format| (format, written(format, &picture()).unwrap_or_else(jpeg_file));
     PICTURE_FORMATS.iter().map(file).collect()
 }
 

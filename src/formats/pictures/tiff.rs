@@ -41,7 +41,7 @@ fn encode<K: TiffKind>(
     picture: &Picture,
     notes: &str,
 ) -> Result<(), Failure> {
-    let mut encoder = encoder.with_compression(Compression::Deflate(DeflateLevel::Balanced));
+    let mut encoder = encoder.with_compression(Compression::Deflate(DeflateLevel::Fast));
     let (width, height) = (u32::try_from(picture.size[0])?, u32::try_from(picture.size[1])?);
     let mut image = encoder.new_image::<RGBA32Float>(width, height)?;
     let tags = image.encoder();
@@ -68,50 +68,46 @@ impl TiffValue for Utf8<'_> {
     }
 }
 
-/// Reads the first image: grey or RGB, with or without alpha, chunky. Alpha is straight unless the file says associated,
-/// and floats are associated unless it says straight.
+/// Reads the first image: grey or RGB, with or without alpha, chunky.
+///
+/// Alpha of integers is straight unless the file says associated, alpha of floats associated unless it says straight.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = MOST_PIXELS as usize * 16;
     limits.intermediate_buffer_size = limits.decoding_buffer_size;
-    let opened = Decoder::new(Cursor::new(bytes)).map_err(|error| wrong("TIFF", error))?;
-    let mut decoder = opened.with_limits(limits);
+    let decoder = Decoder::new(Cursor::new(bytes)).map_err(|error| wrong("TIFF", error))?;
+    let mut decoder = decoder.with_limits(limits);
     let (width, height) = decoder.dimensions().map_err(|error| wrong("TIFF", error))?;
     let size = checked_size(width.into(), height.into())?;
-    let color = decoder.colortype().map_err(|error| wrong("TIFF", error))?;
-    let channels = match color {
-        ColorType::Gray(8 | 16 | 32) => 1,
-        ColorType::GrayA(8 | 16 | 32) => 2,
-        ColorType::RGB(8 | 16 | 32) => 3,
-        ColorType::RGBA(8 | 16 | 32) => 4,
-        other => return Err(unread(&format!("{other:?}"))),
+    let channels = channels(&mut decoder)?;
+    let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples);
+    let extra = extra.map_err(|error| wrong("TIFF", error))?.unwrap_or_default();
+    let alpha = |stated: ExtraSamples, then: Alpha, otherwise: Alpha| {
+        if extra.first() == Some(&stated.to_u16()) { then } else { otherwise }
     };
-    let extra = decoder
-        .find_tag_unsigned_vec::<u16>(Tag::ExtraSamples)
-        .map_err(|error| wrong("TIFF", error))?;
-    let extra = extra.and_then(|kinds| kinds.first().copied()).and_then(ExtraSamples::from_u16);
+    let codes = alpha(ExtraSamples::AssociatedAlpha, Alpha::Associated, Alpha::Straight);
+    let floats = alpha(ExtraSamples::UnassociatedAlpha, Alpha::Straight, Alpha::Associated);
+    let pixels = match decoder.read_image().map_err(|error| wrong("TIFF", error))? {
+        DecodingResult::U8(samples) => from_codes(&samples, channels, u8::MAX, codes),
+        DecodingResult::U16(samples) => from_codes(&samples, channels, u16::MAX, codes),
+        DecodingResult::F32(samples) => from_floats(&samples, channels, floats),
+        _ => return Err(unread("other integers or floats")),
+    };
+    whole(size, pixels)
+}
+
+/// Samples a pixel of an image of a kind that is read.
+fn channels(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<usize, String> {
     let layout = decoder.image_buffer_layout().map_err(|error| wrong("TIFF", error))?;
     if layout.planes != 1 {
         return Err(unread("a plane for each channel"));
     }
-    let samples = decoder.read_image().map_err(|error| wrong("TIFF", error))?;
-    let codes = if extra == Some(ExtraSamples::AssociatedAlpha) {
-        Alpha::Associated
-    } else {
-        Alpha::Straight
-    };
-    let floats = if extra == Some(ExtraSamples::UnassociatedAlpha) {
-        Alpha::Straight
-    } else {
-        Alpha::Associated
-    };
-    match samples {
-        DecodingResult::U8(samples) => whole(size, from_codes(&samples, channels, u8::MAX, codes)),
-        DecodingResult::U16(samples) => {
-            whole(size, from_codes(&samples, channels, u16::MAX, codes))
-        }
-        DecodingResult::F32(samples) => whole(size, from_floats(&samples, channels, floats)),
-        _ => Err(unread("other integers or floats")),
+    match decoder.colortype().map_err(|error| wrong("TIFF", error))? {
+        ColorType::Gray(8 | 16 | 32) => Ok(1),
+        ColorType::GrayA(8 | 16 | 32) => Ok(2),
+        ColorType::RGB(8 | 16 | 32) => Ok(3),
+        ColorType::RGBA(8 | 16 | 32) => Ok(4),
+        other => Err(unread(&format!("{other:?}"))),
     }
 }
 
@@ -122,6 +118,7 @@ fn unread(found: &str) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
     use super::*;
     use tiff::encoder::colortype::{ColorType as Kind, Gray16, RGBA8};
