@@ -14,6 +14,8 @@ mod hostile_files;
 mod made;
 #[cfg(test)]
 mod real_files;
+pub mod pictures;
+pub mod whole;
 
 use std::path::Path;
 
@@ -135,7 +137,7 @@ fn unknown() -> String {
 
 /// Reads a picture of any known format, as linear associated RGBA.
 pub fn read_picture(path: &Path) -> Result<Picture, Error> {
-    Err(Error::file(path, "no format is known yet"))
+    pictures::read_picture(path)
 }
 
 #[cfg(test)]

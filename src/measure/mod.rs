@@ -1,4 +1,6 @@
 //! What is measured: histograms of volumes, errors between pictures, the cost of stages.
 
+pub mod error;
 pub mod histogram;
 pub mod sigma;
+mod ssim;

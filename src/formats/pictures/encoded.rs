@@ -1,0 +1,130 @@
+//! Pixels as files of 8 and 16 bits hold them: colours in sRGB, alpha linear and straight.
+
+use rayon::prelude::*;
+
+use crate::components::color::{to_linear, to_srgb};
+use crate::picture::Picture;
+
+/// The 8-bit code of a linear, associated pixel: sRGB colours and straight alpha, each rounded to nearest.
+///
+/// Colours are divided by alpha and clamped to 0..=1, as is alpha. A pixel of alpha 0 (or NaN) has colour 0, a channel
+/// that is NaN is 0.
+#[must_use]
+pub fn to_codes([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
+    let visible = alpha > 0.0;
+    let alpha = alpha.min(1.0);
+    let code = |channel: f32| (channel * 255.0).round() as u8; // `as` takes NaN to 0 and saturates
+    let color = |c: f32| if visible { code(to_srgb((c / alpha).clamp(0.0, 1.0))) } else { 0 };
+    [color(r), color(g), color(b), if visible { code(alpha) } else { 0 }]
+}
+
+/// All pixels of a picture as [`to_codes`] has them, row by row from the top, four bytes a pixel.
+#[must_use]
+pub fn to_bytes(picture: &Picture) -> Vec<u8> {
+    let mut bytes = vec![0; picture.pixels.len() * 4];
+    let pairs = bytes.as_chunks_mut::<4>().0.par_iter_mut().zip(picture.pixels.par_iter());
+    pairs.for_each(|(code, pixel)| *code = to_codes(*pixel));
+    bytes
+}
+
+/// How the alpha of a file's pixels stands to their colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Alpha {
+    /// Colours as if opaque.
+    Straight,
+    /// Colours multiplied by alpha, as they stand in the file.
+    Associated,
+}
+
+/// Linear, associated pixels of sRGB codes in 0..=`white`, 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) a pixel.
+pub(super) fn from_codes<T: Copy + Into<u32>>(
+    codes: &[T],
+    channels: usize,
+    white: T,
+    kind: Alpha,
+) -> Vec<[f32; 4]> {
+    let full = white.into();
+    let part = |code: u32| code as f32 / full as f32;
+    let linear: Vec<f32> = (0..=full).map(|code| to_linear(part(code))).collect();
+    let pixel = |sample: &[T]| {
+        let [r, g, b, alpha] = rgba(sample, white).map(Into::into);
+        let color = |code: u32| match kind {
+            Alpha::Straight => linear[code as usize] * part(alpha),
+            // Such files are multiplied in sRGB, so dividing comes before the curve.
+            Alpha::Associated => {
+                to_linear((code as f32 / alpha.max(1) as f32).min(1.0)) * part(alpha)
+            }
+        };
+        [color(r), color(g), color(b), part(alpha)]
+    };
+    codes.chunks_exact(channels).map(pixel).collect()
+}
+
+/// Linear, associated pixels of linear floats, 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) a pixel.
+pub(super) fn from_floats(values: &[f32], channels: usize, kind: Alpha) -> Vec<[f32; 4]> {
+    let pixel = |sample: &[f32]| {
+        let [r, g, b, alpha] = rgba(sample, 1.0);
+        match kind {
+            Alpha::Straight => [r * alpha, g * alpha, b * alpha, alpha],
+            Alpha::Associated => [r, g, b, alpha],
+        }
+    };
+    values.chunks_exact(channels).map(pixel).collect()
+}
+
+/// The four channels of one pixel that may have fewer.
+fn rgba<T: Copy>(sample: &[T], opaque: T) -> [T; 4] {
+    match *sample {
+        [] => [opaque; 4],
+        [grey] => [grey, grey, grey, opaque],
+        [grey, alpha] => [grey, grey, grey, alpha],
+        [r, g, b] => [r, g, b, opaque],
+        [r, g, b, alpha, ..] => [r, g, b, alpha],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_those_computed_by_hand() {
+        // 0.25 of opacity 0.5 is straight 0.5: 1.055 · 0.5^(1/2.4) − 0.055 = 0.73536, × 255 = 187.5; 0.1 is straight 0.2,
+        // 0.48453 in sRGB, × 255 = 123.6; 0.001 is straight 0.002, below the knee: 0.02584 × 255 = 6.6.
+        assert_eq!(to_codes([0.25, 0.1, 0.001, 0.5]), [188, 124, 7, 128]);
+        assert_eq!(to_codes([1.0, 0.0, 0.215_9, 1.0]), [255, 0, 128, 255]);
+    }
+
+    #[test]
+    fn nothing_visible_has_colour_0_and_too_bright_or_not_a_number_stays_in_range() {
+        assert_eq!(to_codes([0.3, 0.2, 0.1, 0.0]), [0; 4]);
+        assert_eq!(to_codes([0.3, 0.2, 0.1, f32::NAN]), [0; 4]);
+        assert_eq!(to_codes([9.0, f32::NAN, -1.0, 2.0]), [255, 0, 0, 255]);
+        assert_eq!(to_codes([f32::INFINITY; 4]), [255; 4]);
+    }
+
+    #[test]
+    fn every_code_of_every_alpha_above_0_survives_linear_light() {
+        for alpha in 1..=255_u8 {
+            let codes: Vec<[u8; 4]> = (0..=255).map(|c| [c, 255 - c, c / 2, alpha]).collect();
+            let pixels = from_codes(codes.as_flattened(), 4, 255, Alpha::Straight);
+            assert!(pixels.iter().map(|p| to_codes(*p)).eq(codes));
+        }
+    }
+
+    #[test]
+    fn associated_codes_are_divided_before_the_curve() {
+        let straight = from_codes(&[200_u8, 100, 50, 255], 4, 255, Alpha::Straight)[0];
+        let [r, g, b, alpha] = from_codes(&[100_u8, 50, 25, 128], 4, 255, Alpha::Associated)[0];
+        for (associated, whole) in [r, g, b].iter().zip(straight) {
+            assert!((associated / alpha - whole).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn fewer_channels_are_grey_or_opaque() {
+        assert_eq!(from_codes(&[255_u16 * 257], 1, u16::MAX, Alpha::Straight), [[1.0; 4]]);
+        assert_eq!(from_floats(&[0.5, 0.5], 2, Alpha::Straight), [[0.25, 0.25, 0.25, 0.5]]);
+        assert_eq!(from_floats(&[0.5, 0.2, 0.1], 3, Alpha::Associated), [[0.5, 0.2, 0.1, 1.0]]);
+    }
+}

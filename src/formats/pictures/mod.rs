@@ -1,0 +1,170 @@
+//! Pictures in and out, one format a file; the table here is where a format is added.
+//!
+//! In memory a [`Picture`] is linear, associated RGBA. Files of 8 and 16 bits are sRGB with straight alpha; files of
+//! floats are linear and associated. Nothing but the picture and its notes is written, no clock time: equal pictures and
+//! notes give equal bytes.
+
+pub mod encoded;
+pub mod exr;
+pub mod jpeg;
+pub mod npy;
+pub mod png;
+mod ray_map;
+pub mod tiff;
+
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::path::Path;
+
+use crate::error::Error;
+use crate::formats::whole::{Failure, Sink, check_writable, write_whole};
+use crate::picture::Picture;
+
+pub use ray_map::write_ray_map;
+
+/// Named sentences that go with a picture (scene, settings, version, counts), in the order they are written.
+pub type Notes = [(String, String)];
+
+/// Makes a picture of a file's bytes; the failure is a sentence without a subject.
+pub type Reader = fn(&[u8]) -> Result<Picture, String>;
+
+/// Writes a picture and its notes.
+pub type Writer = fn(&mut dyn Sink, &Picture, &Notes) -> Result<(), Failure>;
+
+/// A format that pictures are read from, written to, or both.
+#[derive(Debug)]
+pub struct PictureFormat {
+    /// Its name, as sentences print it.
+    pub name: &'static str,
+    /// The ends of its files' names, in lower case; the first is the usual one.
+    pub extensions: &'static [&'static str],
+    /// How it is read, if it is.
+    pub read: Option<Reader>,
+    /// How it is written, if it is.
+    pub write: Option<Writer>,
+}
+
+/// Every known format of pictures.
+pub static PICTURE_FORMATS: [PictureFormat; 5] =
+    [png::FORMAT, exr::FORMAT, tiff::FORMAT, npy::FORMAT, jpeg::FORMAT];
+
+/// The longest side of a picture that is read, in pixels.
+const LONGEST_SIDE: u64 = 65_536;
+
+/// The most pixels of a picture that is read: 16384², 4 GiB in memory.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// The longest file that is read: floats of the most pixels, and as much again.
+const LONGEST_FILE: u64 = MOST_PIXELS * 32;
+
+/// The format that a file's name says, without looking whether there is such a file.
+#[must_use]
+pub fn format_of(path: &Path) -> Option<&'static PictureFormat> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    PICTURE_FORMATS.iter().find(|format| format.extensions.contains(&extension.as_str()))
+}
+
+/// Reads a picture of any known format, as linear associated RGBA.
+///
+/// The name's extension says the format. Sizes are limited to 65536 pixels a side and 2²⁸ in all; a file that is cut
+/// short, damaged or of another kind is an error of that file.
+pub fn read_picture(path: &Path) -> Result<Picture, Error> {
+    let read = format_of(path).and_then(|format| format.read);
+    let read = read.ok_or_else(|| unknown(path, |format| format.read.is_some()))?;
+    let unreadable = |error| Error::file(path, format!("cannot be read ({error}); check the path"));
+    let found = fs::metadata(path).map_err(unreadable)?;
+    if !found.is_file() || found.len() > LONGEST_FILE {
+        return Err(Error::file(
+            path,
+            format!("is no file of at most {LONGEST_FILE} bytes; state the path of a picture"),
+        ));
+    }
+    read(&fs::read(path).map_err(unreadable)?).map_err(|problem| Error::file(path, problem))
+}
+
+/// Writes a picture in the format that the name's extension says, whole or not at all.
+///
+/// PNG: 8-bit sRGB, straight alpha, rounded to nearest and clamped, notes as international text. EXR and TIFF: 32-bit
+/// floats, linear and associated, notes as text attributes and as the image description. `.npy`: the same floats,
+/// height × width × 4, without notes. The name of a note is 1 to 64 printable ASCII characters without spaces, and no two
+/// are alike; its text is any text (NUL becomes U+FFFD).
+pub fn write_picture(path: &Path, picture: &Picture, notes: &Notes) -> Result<(), Error> {
+    let write = writer(path)?;
+    let notes = checked(notes).map_err(|problem| Error::file(path, problem))?;
+    if picture.pixels.is_empty() {
+        let [width, height] = picture.size;
+        return Err(Error::file(
+            path,
+            format!(
+                "cannot hold a picture of {width} × {height} pixels; state a size of at least 1 × 1"
+            ),
+        ));
+    }
+    write_whole(path, |sink| write(sink, picture, &notes))
+}
+
+/// Finds out, before a picture is rendered, whether [`write_picture`] would be able to write it at `path`.
+pub fn check_output(path: &Path) -> Result<(), Error> {
+    writer(path)?;
+    check_writable(path)
+}
+
+fn writer(path: &Path) -> Result<Writer, Error> {
+    let write = format_of(path).and_then(|format| format.write);
+    write.ok_or_else(|| unknown(path, |format| format.write.is_some()))
+}
+
+/// The error of a name whose extension is not among those of the formats that are `able`.
+fn unknown(path: &Path, able: impl Fn(&PictureFormat) -> bool) -> Error {
+    let found = match path.extension() {
+        Some(extension) => format!("has the extension `.{}`", extension.to_string_lossy()),
+        None => "has no extension".to_owned(),
+    };
+    let known: Vec<String> = PICTURE_FORMATS
+        .iter()
+        .filter(|format| able(format))
+        .flat_map(|format| format.extensions.iter().map(|extension| format!(".{extension}")))
+        .collect();
+    Error::file(path, format!("{found}; name a picture with one of {}", known.join(", ")))
+}
+
+fn checked(notes: &Notes) -> Result<Vec<(String, String)>, String> {
+    for (place, (name, _)) in notes.iter().enumerate() {
+        if !(1..=64).contains(&name.len()) || !name.bytes().all(|byte| byte.is_ascii_graphic()) {
+            return Err(format!(
+                "cannot hold a note called {name:?}; a name is 1 to 64 printable ASCII characters without spaces"
+            ));
+        }
+        if notes[..place].iter().any(|(earlier, _)| earlier == name) {
+            return Err(format!("cannot hold two notes called {name:?}; join them or rename one"));
+        }
+    }
+    Ok(notes.iter().map(|(name, text)| (name.clone(), text.replace('\0', "\u{fffd}"))).collect())
+}
+
+/// The size of a picture that a file's header states, if it is one that may be read.
+fn checked_size(width: u64, height: u64) -> Result<[usize; 2], String> {
+    let side = 1..=LONGEST_SIDE;
+    if side.contains(&width) && side.contains(&height) && width * height <= MOST_PIXELS {
+        return Ok([width as usize, height as usize]);
+    }
+    Err(format!(
+        "states a size of {width} × {height} pixels; sides of 1 to {LONGEST_SIDE} and at most {MOST_PIXELS} pixels are read: scale it down"
+    ))
+}
+
+/// A picture of as many pixels as its size needs.
+fn whole(size: [usize; 2], pixels: Vec<[f32; 4]>) -> Result<Picture, String> {
+    let found = pixels.len();
+    Picture::new(size, pixels).ok_or_else(|| {
+        let [width, height] = size;
+        format!("holds {found} pixels and its size of {width} × {height} needs another number; the file is damaged")
+    })
+}
+
+/// The sentence of a file that a decoder could not make sense of.
+fn wrong(name: &str, error: impl std::fmt::Display) -> String {
+    format!("is not a whole {name} file ({error}); make or fetch it again")
+}

@@ -1,0 +1,205 @@
+//! Output files appear whole or not at all: a temporary file in the same folder, then a rename.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{BufWriter, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+use crate::error::Error;
+
+/// Why a writer gave up; anything that `?` makes of an error or `.into()` of a sentence.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// Where a writer puts its bytes: in order, or going back to fill in a table.
+pub trait Sink: Write + Seek {}
+
+impl<T: Write + Seek> Sink for T {}
+
+/// Writes the file at `path` with `write`, whole or not at all.
+///
+/// Until `write` has returned `Ok`, its bytes are in a hidden temporary file beside `path`; an error or a panic removes
+/// that file and leaves an older file at `path` as it was. The new file has the permissions of the older one or, where
+/// there was none, those of any new file under the umask. A symbolic link is followed. Devices, pipes and the process's
+/// own streams (`/dev/stdout`) cannot be renamed onto: they are written straight.
+///
+/// An [`Error`] inside the failure of `write` is handed on as it is; any other becomes an [`Error::File`] of `path`.
+pub fn write_whole(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
+) -> Result<(), Error> {
+    let written = if is_stream(path) { write_straight(path, write) } else { replace(path, write) };
+    written.map_err(|failure| match failure.downcast::<Error>() {
+        Ok(error) => *error,
+        Err(failure) => Error::file(
+            path,
+            format!("cannot be written ({failure}); check the folder and the space left, or choose another file"),
+        ),
+    })
+}
+
+/// Finds out, before any work is done, whether [`write_whole`] would be able to write at `path`.
+///
+/// The sentence says what is in the way: a folder of that name, a folder that is missing or closed, a read-only file.
+pub fn check_writable(path: &Path) -> Result<(), Error> {
+    if is_stream(path) {
+        return Ok(());
+    }
+    let refuse = |problem: String| Err(Error::file(path, problem));
+    if path.is_dir() || path.file_name().is_none() {
+        return refuse("is a folder and a file is expected; add a file's name".to_owned());
+    }
+    if path.metadata().is_ok_and(|older| older.permissions().readonly()) {
+        return refuse("is read-only; allow writing to it or choose another file".to_owned());
+    }
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        return refuse(format!(
+            "its folder {} is not there; make it first or choose another",
+            folder.display()
+        ));
+    }
+    match tempfile::tempfile_in(&folder) {
+        Ok(_) => Ok(()),
+        Err(error) => refuse(format!(
+            "its folder {} cannot be written to ({error}); choose another",
+            folder.display()
+        )),
+    }
+}
+
+fn replace(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if target.is_dir() {
+        return Err("a folder has that name".into());
+    }
+    let temporary = beside(&target)?;
+    if let Ok(older) = target.metadata() {
+        temporary.as_file().set_permissions(older.permissions())?;
+    }
+    let mut buffered = BufWriter::new(temporary);
+    write(&mut buffered)?;
+    buffered.into_inner().map_err(std::io::IntoInnerError::into_error)?.persist(target)?;
+    Ok(())
+}
+
+fn write_straight(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut buffered: BufWriter<File> = BufWriter::new(OpenOptions::new().write(true).open(path)?);
+    write(&mut buffered)?;
+    Ok(buffered.flush()?)
+}
+
+/// A temporary file in the folder of `target`, as readable as any new file: the umask narrows the permissions.
+fn beside(target: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(".gelray-").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder_of(target))
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// Whether `path` is something that bytes go through rather than stay in.
+fn is_stream(path: &Path) -> bool {
+    ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc"].iter().any(|own| path.starts_with(own))
+        || path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    #[test]
+    fn a_writer_that_fails_half_way_leaves_nothing_and_an_older_file_untouched() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.json");
+        let fail = |out: &mut dyn Sink| -> Result<(), Failure> {
+            out.write_all(&vec![7; 100_000])?;
+            Err("the disc is full".into())
+        };
+        assert!(write_whole(&path, fail).unwrap_err().to_string().contains("the disc is full"));
+        assert!(names(folder.path()).is_empty());
+        fs::write(&path, "older").unwrap();
+        assert!(write_whole(&path, fail).is_err());
+        assert_eq!(names(folder.path()), ["out.json"]);
+        assert_eq!(fs::read(&path).unwrap(), b"older");
+    }
+
+    #[test]
+    fn a_panic_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out");
+        let panicked = std::panic::catch_unwind(|| {
+            write_whole(&path, |out| {
+                out.write_all(b"half")?;
+                panic!("stopped on purpose")
+            })
+        });
+        assert!(panicked.is_err());
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn an_error_of_ours_passes_through_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out");
+        let error = write_whole(&path, |_| Err(Error::Interrupted.into())).unwrap_err();
+        assert!(matches!(error, Error::Interrupted));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_new_file_has_the_permissions_of_any_new_file_and_an_old_one_keeps_its_own() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (path, plain) = (folder.path().join("out"), folder.path().join("plain"));
+        let mode = |path: &Path| path.metadata().unwrap().permissions().mode() & 0o777;
+        fs::write(&plain, "").unwrap();
+        write_whole(&path, |out| Ok(out.write_all(b"1")?)).unwrap();
+        assert_eq!(mode(&path), mode(&plain));
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+        write_whole(&path, |out| Ok(out.write_all(b"2")?)).unwrap();
+        assert_eq!((mode(&path), fs::read(&path).unwrap()), (0o640, b"2".to_vec()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_a_device_is_never_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, link) = (folder.path().join("out"), folder.path().join("link"));
+        fs::write(&path, "older").unwrap();
+        std::os::unix::fs::symlink(&path, &link).unwrap();
+        write_whole(&link, |out| Ok(out.write_all(b"newer")?)).unwrap();
+        assert!(link.symlink_metadata().unwrap().is_symlink());
+        assert_eq!(fs::read(&path).unwrap(), b"newer");
+        write_whole(Path::new("/dev/null"), |out| Ok(out.write_all(b"gone")?)).unwrap();
+        assert!(!Path::new("/dev/null").metadata().unwrap().is_file());
+    }
+
+    #[test]
+    fn what_is_in_the_way_is_said_before_any_work_is_done() {
+        let folder = tempfile::tempdir().unwrap();
+        let problem = |path: &Path| check_writable(path).unwrap_err().to_string();
+        assert!(problem(folder.path()).contains("is a folder"));
+        assert!(problem(&folder.path().join("missing/out.png")).contains("is not there"));
+        check_writable(&folder.path().join("out.png")).unwrap();
+        assert!(names(folder.path()).is_empty());
+    }
+}
