@@ -1,6 +1,6 @@
 //! Parallel rays: the view's frame in the world, and a ray through the voxels of a grid (algorithm §1).
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use crate::components::View;
 use crate::face::Extent;
@@ -168,13 +168,6 @@ impl Walk {
         let last = (first.max(end - 6)..end).rev().find(|&k| inside(k))?;
         Some(Samples { first, end: last + 1, at: at(first) })
     }
-}
-
-/// From world to window: the linear part of [`Camera::project`] in pixels and depth, for directions.
-#[must_use]
-pub fn window_from_world(camera: &Camera) -> DMat3 {
-    DMat3::from_cols(camera.right / camera.pixel, -camera.up / camera.pixel, camera.forward)
-        .transpose()
 }
 
 #[cfg(test)]

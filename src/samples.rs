@@ -10,13 +10,13 @@ pub const POSITIONS: usize = 4;
 pub struct Counts {
     /// Rays cast.
     pub rays: u64,
-    /// Samples of the volume that were interpolated.
+    /// Samples of the volume that were taken.
     pub samples: u64,
     /// Times that a ray stepped over an empty cell of the pyramid, of whatever level.
     pub cells_skipped: u64,
-    /// Polygons met by rays.
+    /// Polygons met by rays and composited into C.
     pub polygon_hits: u64,
-    /// Slabs' parts composited where polygons split a slab.
+    /// Parts of slabs that polygons had split.
     pub slivers: u64,
 }
 
@@ -40,22 +40,118 @@ impl PartialEq for Samples {
     }
 }
 
-/// One associated RGBA a position, in sixteen planes: the positions that lie alike in their block of 4 × 4 share one,
-/// so that a picture of a ray a pixel touches one plane of memory.
-#[derive(Debug)]
-pub struct SampleArray {
+/// Where the positions of a sample array are: pixel `p` is centred at position `4 p + margin`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
     /// Pixels across and down.
     pub size: [usize; 2],
-    /// The position of the middle of pixel (0, 0): pixel `p` is centred at `4 p + margin`.
+    /// The position of the middle of pixel (0, 0), a multiple of 4.
     pub margin: usize,
+    /// Regions of `coarsest` positions a side, across and down; positions run from 0 to `regions · coarsest`.
+    pub regions: [usize; 2],
+    /// The side of the first regions, in positions.
+    pub coarsest: usize,
+}
+
+impl Layout {
+    /// The layout for pictures of `size` pixels whose filter reaches `reach` positions from a pixel's middle.
+    #[must_use]
+    pub fn new(size: [usize; 2], coarsest: usize, reach: usize) -> Self {
+        let margin = reach.next_multiple_of(POSITIONS);
+        let regions = size.map(|n| (POSITIONS * (n - 1) + margin + reach).div_ceil(coarsest));
+        Self { size, margin, regions, coarsest }
+    }
+
+    /// Positions across and down.
+    #[must_use]
+    pub fn positions(&self) -> [usize; 2] {
+        self.regions.map(|n| n * self.coarsest + 1)
+    }
+
     /// Blocks of 4 × 4 positions across and down.
-    pub blocks: [usize; 2],
-    /// For each place `4 (y mod 4) + (x mod 4)` in a block: C of every block, x fastest.
-    pub planes: Vec<Vec<[f32; 4]>>,
-    /// For each block: bit `4 (y mod 4) + (x mod 4)` is set where a ray was cast.
+    #[must_use]
+    pub fn blocks(&self) -> [usize; 2] {
+        self.positions().map(|n| n.div_ceil(POSITIONS))
+    }
+
+    /// Place of a position in its block, 0..16, and of the block among the blocks.
+    #[must_use]
+    #[inline]
+    pub fn place(&self, i: usize, j: usize) -> (usize, usize) {
+        let plane = (j % POSITIONS) * POSITIONS + i % POSITIONS;
+        (plane, (j / POSITIONS) * self.blocks()[0] + i / POSITIONS)
+    }
+
+    /// Window coordinate of a position along either axis, in pixels from the picture's corner.
+    #[must_use]
+    pub fn window(&self, position: usize) -> f64 {
+        (position as f64 - self.margin as f64) / POSITIONS as f64 + 0.5
+    }
+}
+
+/// One associated RGBA a position, in sixteen planes: the positions that lie alike in their block of 4 × 4 share one, so
+/// that a picture of a ray a pixel touches one plane of memory.
+#[derive(Debug)]
+pub struct Planes(pub Vec<Vec<[f32; 4]>>);
+
+impl Planes {
+    /// Planes of zeros; memory is taken where something is written.
+    #[must_use]
+    pub fn new(layout: &Layout) -> Self {
+        let blocks = layout.blocks().iter().product();
+        Self((0..POSITIONS * POSITIONS).map(|_| vec![[0.0; 4]; blocks]).collect())
+    }
+
+    /// The value at a position.
+    #[must_use]
+    #[inline]
+    pub fn value(&self, layout: &Layout, i: usize, j: usize) -> [f32; 4] {
+        let (plane, block) = layout.place(i, j);
+        self.0[plane][block]
+    }
+}
+
+/// C at the positions where rays were cast, and which regions were split.
+#[derive(Debug)]
+pub struct SampleArray {
+    /// Where the positions are.
+    pub layout: Layout,
+    /// C, linear associated RGBA.
+    pub colors: Planes,
+    /// For each block: bit `4 (j mod 4) + (i mod 4)` is set where a ray was cast.
     pub cast: Vec<u16>,
-    /// The side of the smallest region around each position, see `resample`: for each 4-position region, its split level.
+    /// For each block, which is also the region of 4 × 4 positions from its first on: bit 0 is set if it was split to
+    /// regions of 2 × 2, bit `1 + 2 y + x` if that child of it was split to single positions.
     pub splits: Vec<u8>,
     /// What was counted.
     pub counts: Counts,
+}
+
+impl SampleArray {
+    /// Whether a ray was cast at a position.
+    #[must_use]
+    #[inline]
+    pub fn is_cast(&self, i: usize, j: usize) -> bool {
+        let (plane, block) = self.layout.place(i, j);
+        self.cast[block] >> plane & 1 == 1
+    }
+
+    /// Where rays were cast (the paper's figure 8): 4 × 4 values a pixel, row by row, of the picture's pixels alone.
+    #[must_use]
+    pub fn ray_map(&self) -> Vec<bool> {
+        let [width, height] = self.layout.size.map(|n| n * POSITIONS);
+        // A pixel's four positions are its middle, the one behind it, and the two before.
+        let first = self.layout.margin - POSITIONS / 2;
+        (0..height)
+            .flat_map(|j| (0..width).map(move |i| (i, j)))
+            .map(|(i, j)| self.is_cast(first + i, first + j))
+            .collect()
+    }
+
+    /// Bytes that the array takes if all of it is written.
+    #[must_use]
+    pub fn most_bytes(layout: &Layout) -> u64 {
+        let blocks: usize = layout.blocks().iter().product();
+        blocks as u64 * (POSITIONS * POSITIONS * 16 + 2 + 1) as u64
+    }
 }

@@ -108,3 +108,32 @@ pub enum PixelFilter {
     /// Mitchell and Netravali 1988, four pixels wide.
     Mitchell,
 }
+
+impl PixelFilter {
+    /// How far it reaches from a pixel's middle, in positions of the sample array (4 a pixel).
+    #[must_use]
+    pub fn reach(self) -> usize {
+        match self {
+            Self::Box => 2,
+            Self::Tent => 4,
+            Self::Mitchell => 8,
+        }
+    }
+
+    /// Its weight `distance` pixels from a pixel's middle, not normalised; a box counts its borders half.
+    #[must_use]
+    pub fn weight(self, distance: f32) -> f32 {
+        let x = distance.abs();
+        match self {
+            Self::Box if x < 0.5 => 1.0,
+            Self::Box if x == 0.5 => 0.5,
+            Self::Tent => (1.0 - x).max(0.0),
+            // B = C = 1/3.
+            Self::Mitchell if x < 1.0 => (7.0 * x * x * x - 12.0 * x * x + 16.0 / 3.0) / 6.0,
+            Self::Mitchell if x < 2.0 => {
+                (-7.0 / 3.0 * x * x * x + 12.0 * x * x - 20.0 * x + 32.0 / 3.0) / 6.0
+            }
+            Self::Box | Self::Mitchell => 0.0,
+        }
+    }
+}

@@ -12,9 +12,9 @@ mod stream;
 mod hostile_files;
 #[cfg(test)]
 mod made;
+pub mod pictures;
 #[cfg(test)]
 mod real_files;
-pub mod pictures;
 pub mod whole;
 
 use std::path::Path;

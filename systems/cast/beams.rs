@@ -1,0 +1,102 @@
+//! Beams: small tiles of the picture, and where along each its rays can meet gel or polygons at all.
+//!
+//! Every occupied brick is splatted into the beams that it may be seen through; a ray starts where the first of its
+//! beam's bricks starts and ends where the last one ends. Lossless: outside that interval there is no interesting cell.
+
+use glam::{DVec2, DVec3};
+
+use crate::gel::{CELLS, EMPTY, Texel, Texels};
+use crate::grid::Grid;
+use crate::ray::Camera;
+use crate::samples::{Layout, POSITIONS};
+
+/// Pixels along a beam's side.
+const PIXELS: usize = 4;
+/// Positions of the sample array along a beam's side.
+pub const SIDE: usize = PIXELS * POSITIONS;
+
+/// For each beam, x fastest: the numbers `[first, end)` of the samples that may lie in an occupied brick.
+pub type Occupied = Vec<[i64; 2]>;
+
+/// How a sample array is cut into beams of 16 × 16 positions.
+#[derive(Debug, Clone, Copy)]
+pub struct Beams {
+    /// The positions of the array.
+    pub layout: Layout,
+    /// Beams across and down.
+    pub counts: [usize; 2],
+}
+
+impl Beams {
+    /// The beams of a sample array.
+    pub fn new(layout: Layout) -> Self {
+        Self { layout, counts: layout.positions().map(|n| n.div_ceil(SIDE)) }
+    }
+
+    /// The beams that positions between window coordinates `low` and `high` (pixels) may lie in, as half-open ranges
+    /// across and down; empty outside the array.
+    pub fn around(&self, low: DVec2, high: DVec2) -> [std::ops::Range<usize>; 2] {
+        let position = |window: f64| (window - 0.5) * POSITIONS as f64 + self.layout.margin as f64;
+        let range = |low: f64, high: f64, count: usize| {
+            // A position's slack against rounding; casts saturate, NaN becomes 0.
+            let first = ((position(low) - 0.01) / SIDE as f64).floor().max(0.0) as usize;
+            let end = ((position(high) + 0.01) / SIDE as f64).floor() + 1.0;
+            first.min(count)..(end.max(0.0) as usize).min(count)
+        };
+        [range(low.x, high.x, self.counts[0]), range(low.y, high.y, self.counts[1])]
+    }
+
+    /// Where the rays of each beam may meet gel.
+    pub fn occupied<T: Texel>(
+        &self,
+        gel: &Texels<T>,
+        grid: &Grid,
+        camera: &Camera,
+        distance: f64,
+    ) -> Occupied {
+        let mut ranges = vec![[i64::MAX, i64::MIN]; self.counts[0] * self.counts[1]];
+        let box_of = BoxOf::new(grid, camera);
+        let [nx, ny, _] = gel.counts();
+        let stored = gel.table().iter().enumerate().filter(|(_, entry)| **entry != EMPTY);
+        for (at, _) in stored {
+            let brick = [at % nx, at / nx % ny, at / (nx * ny)];
+            let (low, high) = box_of.brick(brick, grid.size);
+            let first = (low.z / distance - 0.5).floor() as i64 - 1;
+            let end = (high.z / distance - 0.5).ceil() as i64 + 2;
+            let [across, down] = self.around(low.truncate(), high.truncate());
+            for y in down {
+                for range in &mut ranges[y * self.counts[0]..][across.clone()] {
+                    *range = [range[0].min(first), range[1].max(end)];
+                }
+            }
+        }
+        ranges
+    }
+}
+
+/// Bounding boxes in window coordinates (pixels) and depth (world units) of boxes in index space.
+struct BoxOf {
+    origin: DVec3,
+    axes: [DVec3; 3],
+}
+
+impl BoxOf {
+    fn new(grid: &Grid, camera: &Camera) -> Self {
+        let seen = |point: DVec3| {
+            let (window, depth) = camera.project(grid.index_to_world.transform_point3(point));
+            window.extend(depth)
+        };
+        let origin = seen(DVec3::ZERO);
+        Self { origin, axes: DVec3::AXES.map(|axis| seen(axis) - origin) }
+    }
+
+    fn brick(&self, brick: [usize; 3], size: [usize; 3]) -> (DVec3, DVec3) {
+        let (mut low, mut high) = (self.origin, self.origin);
+        for ((axis, first), n) in self.axes.iter().zip(brick.map(|b| b * CELLS)).zip(size) {
+            let ends = [*axis * first as f64, *axis * (first + CELLS).min(n - 1) as f64];
+            low += ends[0].min(ends[1]);
+            high += ends[0].max(ends[1]);
+        }
+        (low, high)
+    }
+}

@@ -1,0 +1,263 @@
+//! Casting rays: the hybrid ray tracer of the paper's §2 with the optimisations of its §6.
+//!
+//! `mod` sets a view up and gives each beam of rays what it needs, `beams` says where a beam can meet anything,
+//! `adaptive` says where rays are cast, `march` takes a ray through slabs and slivers, `volume` finds the samples on it,
+//! `polygons` says what it meets.
+
+mod adaptive;
+mod beams;
+mod march;
+mod polygons;
+mod volume;
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use hecs::{Entity, World};
+
+use crate::components::{DepthCue, Order, Sampling, Surface, View, Voxelize};
+use crate::error::Error;
+use crate::face::{Extent, Faces};
+use crate::gel::{Gel as GelBricks, Texel, Texels};
+use crate::grid::Grid;
+use crate::products::{Gel, Pyramid, Samples};
+use crate::ray::{Camera, Walk};
+use crate::samples::{Counts, Layout, SampleArray};
+use crate::schedule::{Kind, Outbox, Plan, System, Watch};
+use crate::shading::Lamps;
+use adaptive::{Caster, Ray, Refinement};
+use beams::{Beams, Occupied};
+use march::Hit;
+use polygons::{Look, Polygons, Seen};
+use volume::{Cue, Cursor, Volume};
+
+/// Casts the rays of every view.
+pub struct Cast;
+
+/// What the rays of a view meet.
+#[derive(PartialEq)]
+struct Inputs {
+    view: View,
+    sampling: Sampling,
+    extent: Extent,
+    cue: Option<DepthCue>,
+    volume: Option<Medium>,
+    polygons: Vec<(Faces, Surface)>,
+    lamps: Lamps,
+}
+
+/// The gel and where it is.
+#[derive(PartialEq)]
+struct Medium {
+    grid: Grid,
+    gel: Gel,
+    pyramid: Option<Pyramid>,
+    unit: f64,
+}
+
+impl System for Cast {
+    type Product = Samples;
+    const NAME: &'static str = "cast";
+    #[rustfmt::skip]
+    const READS: &'static [Kind] = &[
+        Kind::View, Kind::Sampling, Kind::Extent, Kind::DepthCue, Kind::Grid, Kind::OpacityUnit, Kind::Gel,
+        Kind::Pyramid, Kind::Faces, Kind::Surface, Kind::Voxelize, Kind::Order, Kind::Light, Kind::CastsShadow,
+    ];
+
+    fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
+        let watch = out.watch();
+        let mut views = world.query::<(Entity, &View, &Sampling, &Extent, Option<&DepthCue>)>();
+        for (entity, view, sampling, extent, cue) in &mut views {
+            let camera = Camera::new(view, extent);
+            let polygons = hybrid_polygons(world);
+            let lamps = if polygons.is_empty() {
+                Lamps::default()
+            } else {
+                Lamps::of(world, -camera.forward)
+            };
+            let inputs = Inputs {
+                view: view.clone(),
+                sampling: sampling.clone(),
+                extent: *extent,
+                cue: cue.copied(),
+                volume: medium(world),
+                polygons,
+                lamps,
+            };
+            out.derive(entity, inputs, |inputs| cast(inputs, &camera, watch))?;
+        }
+        Ok(())
+    }
+
+    fn plan(world: &World) -> Plan {
+        let mut views = world.query::<(Entity, &View, &Sampling)>();
+        let bytes =
+            |view: &View, sampling: &Sampling| SampleArray::most_bytes(&layout(view, sampling));
+        let makes =
+            views.iter().map(|(entity, view, sampling)| (entity, bytes(view, sampling))).collect();
+        Plan { makes, why: "a view is stated" }
+    }
+}
+
+/// The polygons that stay polygons, in the order of the scene.
+fn hybrid_polygons(world: &World) -> Vec<(Faces, Surface)> {
+    let mut query = world.query::<(&Order, &Faces, &Surface, Option<&Voxelize>)>();
+    let mut polygons: Vec<_> =
+        query.iter().filter(|(_, _, _, voxelize)| voxelize.is_none()).collect();
+    polygons.sort_by_key(|(order, ..)| **order);
+    polygons.into_iter().map(|(_, faces, surface, _)| (faces.clone(), surface.clone())).collect()
+}
+
+fn medium(world: &World) -> Option<Medium> {
+    let mut query =
+        world.query::<(&Grid, &Gel, Option<&Pyramid>, &crate::components::OpacityUnit)>();
+    query.iter().next().map(|(grid, gel, pyramid, unit)| Medium {
+        grid: *grid,
+        gel: gel.clone(),
+        pyramid: pyramid.cloned(),
+        unit: unit.0,
+    })
+}
+
+/// Where the positions of a view's sample array are.
+fn layout(view: &View, sampling: &Sampling) -> Layout {
+    let size = view.size.map(|n| n as usize);
+    Layout::new(size, sampling.coarsest as usize, sampling.pixel_filter.reach())
+}
+
+fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Error> {
+    let layout = layout(&inputs.view, &inputs.sampling);
+    let beams = Beams::new(layout);
+    let cue = inputs.cue.map(|cue| {
+        let near = camera.project(inputs.extent.center()).1 - inputs.extent.radius();
+        Cue { k1: cue.k1, k2: cue.k2, near }
+    });
+    let seen = inputs.polygons.iter().flat_map(|(faces, surface)| {
+        faces.0.iter().filter_map(|face| {
+            Seen::new(face, camera, Look::new(surface, face.normal, &inputs.lamps))
+        })
+    });
+    let polygons = Polygons::new(seen.collect(), &beams, cue);
+    let rays = Rays { camera, polygons, stop: f64::from(inputs.sampling.stop_at), cue };
+    let Some(medium) = &inputs.volume else {
+        return rays.refine::<[f32; 4]>(inputs, layout, None, watch);
+    };
+    match (&medium.gel.lit, &medium.gel.ambient) {
+        (GelBricks::F32(lit), None) => rays.through(inputs, layout, (medium, lit, None), watch),
+        (GelBricks::F32(lit), Some(GelBricks::F32(ambient))) => {
+            rays.through(inputs, layout, (medium, lit, Some(ambient)), watch)
+        }
+        (GelBricks::U16(lit), None) => rays.through(inputs, layout, (medium, lit, None), watch),
+        (GelBricks::U16(lit), Some(GelBricks::U16(ambient))) => {
+            rays.through(inputs, layout, (medium, lit, Some(ambient)), watch)
+        }
+        (GelBricks::U8(lit), None) => rays.through(inputs, layout, (medium, lit, None), watch),
+        (GelBricks::U8(lit), Some(GelBricks::U8(ambient))) => {
+            rays.through(inputs, layout, (medium, lit, Some(ambient)), watch)
+        }
+        _ => Err(Error::Schedule("the two parts of the gel are of different texels".to_owned())),
+    }
+}
+
+/// What the rays of a view share, whatever numbers the gel is kept in.
+struct Rays<'a> {
+    camera: &'a Camera,
+    polygons: Polygons,
+    stop: f64,
+    cue: Option<Cue>,
+}
+
+impl<'a> Rays<'a> {
+    fn through<T: Texel>(
+        self,
+        inputs: &'a Inputs,
+        layout: Layout,
+        (medium, gel, ambient): (&'a Medium, &'a Texels<T>, Option<&'a Texels<T>>),
+        watch: &Watch,
+    ) -> Result<Samples, Error> {
+        let distance =
+            inputs.sampling.distance_mm.unwrap_or_else(|| medium.grid.spacing().min_element());
+        let walk = Walk::new(&medium.grid, self.camera, distance)
+            .map_err(|problem| Error::entity("view", problem))?;
+        let ratio = distance / medium.unit;
+        let ratio = if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio };
+        let pyramid = medium.pyramid.as_ref();
+        let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue };
+        let occupied =
+            pyramid.map(|_| Beams::new(layout).occupied(gel, &medium.grid, self.camera, distance));
+        self.refine(inputs, layout, Some((volume, occupied)), watch)
+    }
+
+    fn refine<T: Texel>(
+        self,
+        inputs: &Inputs,
+        layout: Layout,
+        volume: Option<(Volume<'_, T>, Option<Occupied>)>,
+        watch: &Watch,
+    ) -> Result<Samples, Error> {
+        let sampling = &inputs.sampling;
+        let polygons = !self.polygons.is_empty();
+        // Regions down to two pixels' side are split where outlines cross them.
+        let outlines = (polygons && sampling.outlines && sampling.coarsest > 4)
+            .then(|| self.polygons.outlines(&layout, 8));
+        let (volume, occupied) = volume.unzip();
+        let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
+        let caster = BeamCaster {
+            rays: self,
+            volume,
+            occupied: occupied.flatten(),
+            three_colors: supersampled,
+        };
+        let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
+            .refine(watch)?;
+        Ok(Samples(Arc::new(array)))
+    }
+}
+
+/// Casts rays, a beam at a time.
+struct BeamCaster<'a, T> {
+    rays: Rays<'a>,
+    volume: Option<Volume<'a, T>>,
+    occupied: Option<Occupied>,
+    three_colors: bool,
+}
+
+impl<T: Texel> Caster for BeamCaster<'_, T> {
+    type Scratch = Vec<Hit>;
+
+    fn cast(&self, beam: usize, window: DVec2, hits: &mut Vec<Hit>, counts: &mut Counts) -> Ray {
+        let Rays { polygons, stop, .. } = &self.rays;
+        if !polygons.is_empty() {
+            polygons.meet(beam, window, hits);
+        }
+        let mut cursor = self.cursor(beam, window);
+        if hits.is_empty() {
+            let full = self.volume.as_ref().map_or_else(
+                || [0.0; 4],
+                |volume| volume.march(&mut cursor, *stop, counts).rgba(*stop),
+            );
+            return Ray { full, ..Ray::default() };
+        }
+        let shade = |hit: &Hit| polygons.shade(hit);
+        let colors = match &self.volume {
+            Some(volume) => volume.march_through(&mut cursor, hits, shade, *stop, counts),
+            None => march::polygons_alone(hits, shade, *stop, counts),
+        };
+        let geometric =
+            if self.three_colors { march::geometric(hits, shade, *stop) } else { [0.0; 4] };
+        Ray { full: colors.full.rgba(*stop), attenuated: colors.attenuated, geometric }
+    }
+}
+
+impl<T: Texel> BeamCaster<'_, T> {
+    /// Where the ray through a window position enters the gel.
+    fn cursor(&self, beam: usize, window: DVec2) -> Cursor {
+        let Some(volume) = &self.volume else { return Cursor::NOWHERE };
+        let range = self.occupied.as_ref().map_or([i64::MIN, i64::MAX], |occupied| occupied[beam]);
+        if range[0] >= range[1] {
+            return Cursor::NOWHERE;
+        }
+        let samples = volume.walk.enter(self.rays.camera.origin(window));
+        samples.map_or(Cursor::NOWHERE, |samples| Cursor::new(&volume.walk, samples, range))
+    }
+}

@@ -1,0 +1,218 @@
+//! Polygons as the rays of one view meet them: at which depths, and how they are shaded (algorithm §4).
+//!
+//! Rays are parallel, so a polygon is projected to the picture once; a ray meets it where its window position lies in
+//! the projected outline, at a depth that is affine in that position. Whether a position lies on this or that side of
+//! an edge is computed from the edge's ends in one order, whichever polygon asks: an edge that two polygons share is
+//! met exactly once. A polygon in the plane of the rays is missed.
+
+use glam::{DVec2, DVec3, Vec3};
+
+use super::adaptive::Outlines;
+use super::beams::Beams;
+use super::march::{Hit, Shaded};
+use super::volume::Cue;
+use crate::components::Surface;
+use crate::face::Face;
+use crate::ray::Camera;
+use crate::samples::{Layout, POSITIONS};
+use crate::shading::{Lamps, Reflectance};
+
+/// A polygon of the scene on one view.
+pub struct Seen {
+    /// The outlines in window coordinates, pixels; holes as the rest: a position inside an odd number of them is in.
+    outlines: Vec<Vec<DVec2>>,
+    low: DVec2,
+    high: DVec2,
+    /// Depth of window position (x, y): `depth.x x + depth.y y + depth.z`.
+    depth: DVec3,
+    look: Look,
+}
+
+/// How a polygon of one orientation and surface looks under the lights of a scene: constant over it, but for the cue,
+/// textures and shadows.
+#[derive(Debug, Clone)]
+pub struct Look {
+    /// α_P.
+    opacity: f64,
+    /// c_P k_a.
+    ambient: DVec3,
+    /// What it reflects of the lights that cast no shadow.
+    reflected: DVec3,
+    /// What it reflects of each light that does, unshadowed.
+    shadowed: Vec<DVec3>,
+}
+
+impl Look {
+    /// The look of a face of unit normal `normal`.
+    pub fn new(surface: &Surface, normal: DVec3, lamps: &Lamps) -> Self {
+        let (how, normal): (Reflectance, Vec3) = (surface.into(), normal.as_vec3());
+        let color = surface.color.0;
+        let reflected =
+            lamps.plain.iter().map(|lamp| lamp.reflected(color, normal, &how)).sum::<Vec3>();
+        let shadowed = lamps.shadowed.iter();
+        Self {
+            opacity: f64::from(surface.opacity),
+            ambient: (color * how.ambient).as_dvec3(),
+            reflected: reflected.as_dvec3(),
+            shadowed: shadowed
+                .map(|(_, lamp)| lamp.reflected(color, normal, &how).as_dvec3())
+                .collect(),
+        }
+    }
+}
+
+impl Seen {
+    /// A face on a view; `None` if it is seen edge-on.
+    pub fn new(face: &Face, camera: &Camera, look: Look) -> Option<Self> {
+        let facing = face.normal.dot(camera.forward);
+        if facing.abs() < 1e-9 {
+            return None;
+        }
+        let project = |v: &DVec3| camera.project(*v).0;
+        let outlines: Vec<Vec<DVec2>> =
+            face.outlines.iter().map(|outline| outline.iter().map(project).collect()).collect();
+        let corners = outlines.iter().flatten();
+        let (low, high) = corners
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &v| {
+                (low.min(v), high.max(v))
+            });
+        // Along the plane, a step of the window moves the depth by minus the normal's part along it.
+        let across = |window: DVec2| {
+            let world =
+                camera.right * (window.x * camera.pixel) - camera.up * (window.y * camera.pixel);
+            -face.normal.dot(world) / facing
+        };
+        let (center, middle) = camera.project(face.center);
+        let (dx, dy) = (across(DVec2::X), across(DVec2::Y));
+        let depth = DVec3::new(dx, dy, middle - dx * center.x - dy * center.y);
+        Some(Self { outlines, low, high, depth, look })
+    }
+
+    /// Whether a window position lies in the polygon: inside an odd number of outlines, borders to one side.
+    fn holds(&self, at: DVec2) -> bool {
+        if at.cmplt(self.low).any() || at.cmpgt(self.high).any() {
+            return false;
+        }
+        let edges = self
+            .outlines
+            .iter()
+            .flat_map(|outline| outline.iter().zip(outline.iter().skip(1).chain(outline.first())));
+        edges.filter(|(p, q)| crosses(**p, **q, at)).count() % 2 == 1
+    }
+
+    fn depth(&self, at: DVec2) -> f64 {
+        self.depth.dot(at.extend(1.0))
+    }
+}
+
+/// Whether the edge from `p` to `q` passes to the right of `at`, its lower end counted and its upper end not; the same
+/// for (q, p).
+fn crosses(p: DVec2, q: DVec2, at: DVec2) -> bool {
+    if (p.y <= at.y) == (q.y <= at.y) {
+        return false;
+    }
+    let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
+    (high - low).perp_dot(at - low) > 0.0
+}
+
+/// Every polygon of a scene on one view, in the order of the scene, and for each beam those it may meet.
+pub struct Polygons {
+    faces: Vec<Seen>,
+    /// For each beam: its part of `binned`.
+    starts: Vec<u32>,
+    binned: Vec<u32>,
+    cue: Option<Cue>,
+}
+
+impl Polygons {
+    /// Sorts the polygons into beams.
+    pub fn new(faces: Vec<Seen>, beams: &Beams, cue: Option<Cue>) -> Self {
+        let around = |face: &Seen| beams.around(face.low, face.high);
+        let mut starts = vec![0_u32; beams.counts[0] * beams.counts[1] + 1];
+        let each = |[across, down]: [std::ops::Range<usize>; 2]| {
+            let row = beams.counts[0];
+            down.flat_map(move |y| across.clone().map(move |x| y * row + x))
+        };
+        faces.iter().flat_map(|face| each(around(face))).for_each(|beam| starts[beam + 1] += 1);
+        for beam in 1..starts.len() {
+            starts[beam] += starts[beam - 1];
+        }
+        let mut next = starts.clone();
+        let mut binned = vec![0; starts[starts.len() - 1] as usize];
+        for (number, face) in faces.iter().enumerate() {
+            for beam in each(around(face)) {
+                binned[next[beam] as usize] = number as u32;
+                next[beam] += 1;
+            }
+        }
+        Self { faces, starts, binned, cue }
+    }
+
+    /// Whether there is no polygon.
+    pub fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// Puts into `hits` what a ray of a beam meets, in the order of depths, ties in the order of the scene.
+    pub fn meet(&self, beam: usize, window: DVec2, hits: &mut Vec<Hit>) {
+        hits.clear();
+        let near = &self.binned[self.starts[beam] as usize..self.starts[beam + 1] as usize];
+        for &number in near {
+            let face = &self.faces[number as usize];
+            if face.holds(window) {
+                hits.push(Hit { depth: face.depth(window), face: number });
+            }
+        }
+        hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.face.cmp(&b.face)));
+    }
+
+    /// Shades a hit.
+    pub fn shade(&self, hit: &Hit) -> Shaded {
+        let look = &self.faces[hit.face as usize].look;
+        let cue = self.cue.map_or(1.0, |cue| cue.factor(hit.depth));
+        let unshadowed = look.reflected + look.shadowed.iter().sum::<DVec3>();
+        let color = look.ambient + unshadowed * cue;
+        let opacity = look.opacity;
+        Shaded { color, opacity, plain_color: color, plain_opacity: opacity }
+    }
+
+    /// Which squares of `side` positions the outlines cross.
+    pub fn outlines(&self, layout: &Layout, side: usize) -> Outlines {
+        let [across, down] = layout.positions().map(|n| (n - 1).div_ceil(side));
+        let mut outlines = Outlines { side, across, crossed: vec![false; across * down] };
+        let square = |window: DVec2| {
+            ((window - 0.5) * POSITIONS as f64 + layout.margin as f64) / side as f64
+        };
+        for outline in self.faces.iter().flat_map(|face| &face.outlines) {
+            for (p, q) in outline.iter().zip(outline.iter().skip(1).chain(outline.first())) {
+                mark(&mut outlines, down, square(*p), square(*q));
+            }
+        }
+        outlines
+    }
+}
+
+/// Marks every square that the edge from `p` to `q` (in squares) crosses, and its neighbours within a rounding error.
+fn mark(outlines: &mut Outlines, down: usize, p: DVec2, q: DVec2) {
+    const SLACK: f64 = 1e-6;
+    let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
+    let rows = (low.y - SLACK).floor().max(0.0)..(high.y + SLACK).floor().min(down as f64 - 1.0);
+    let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
+    let mut row = rows.start;
+    while row <= rows.end {
+        let (from, to) = if high.y > low.y {
+            let at = |y: f64| low.x + (y.clamp(low.y, high.y) - low.y) * slope;
+            (at(row), at(row + 1.0))
+        } else {
+            (low.x, high.x)
+        };
+        let first = (from.min(to) - SLACK).floor().max(0.0) as usize;
+        let last = (from.max(to) + SLACK).floor().min(outlines.across as f64 - 1.0);
+        if last >= 0.0 {
+            for x in first..=last as usize {
+                outlines.crossed[row as usize * outlines.across + x] = true;
+            }
+        }
+        row += 1.0;
+    }
+}
