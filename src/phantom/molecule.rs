@@ -1,0 +1,4 @@
+//! tbd
+pub fn molecule() -> crate::formats::Loaded {
+    super::simple::ramp()
+}
