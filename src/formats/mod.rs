@@ -26,8 +26,21 @@ pub enum Voxels {
     Painted(Painted),
 }
 
+/// What a scene states about a file: all of it for a headerless one, the spacing for any.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stated {
+    /// Voxels on each axis.
+    pub size: Option<[usize; 3]>,
+    /// Number type, as NRRD names it.
+    pub voxel_type: Option<String>,
+    /// `little` or `big`.
+    pub endian: Option<String>,
+    /// Spacing in world units.
+    pub spacing_mm: Option<[f64; 3]>,
+}
+
 /// Reads a volume of any known format.
-pub fn read_volume(path: &Path) -> Result<Loaded, Error> {
+pub fn read_volume(path: &Path, _stated: &Stated) -> Result<Loaded, Error> {
     Err(Error::file(path, "no format is known yet"))
 }
 
