@@ -89,24 +89,25 @@ impl Check for Classify<Level> {
                 "has `gradient` without `transfer`, which it is a factor of; add `transfer`",
             );
         }
-        // Probabilities and factors stand in pairs, which the schema cannot bound.
-        let pair = |(at, pairs): (String, &Vec<[f32; 2]>)| {
-            rising(&at, &pairs.iter().map(|p| p[0]).collect::<Vec<_>>())?;
-            match pairs.iter().position(|p| !(0.0..=1.0).contains(&p[1])) {
-                Some(i) => wrong(
-                    format!("{at}.{i}"),
-                    format!("has {} in `{at}.{i}`, which must be within 0 and 1", pairs[i][1]),
-                ),
-                None => Ok(()),
-            }
-        };
         rising("regions", &self.regions.iter().map(|t| t.value).collect::<Vec<_>>())?;
         rising("transfer", &self.transfer.iter().map(|t| t.value).collect::<Vec<_>>())?;
-        pair(("gradient".to_owned(), &self.gradient))?;
-        let tables = self.materials.iter().enumerate();
-        tables
-            .map(|(i, m)| (format!("materials.{i}.probability"), &m.probability))
-            .try_for_each(pair)
+        pairs("gradient", &self.gradient)?;
+        for (i, material) in self.materials.iter().enumerate() {
+            pairs(&format!("materials.{i}.probability"), &material.probability)?;
+        }
+        Ok(())
+    }
+}
+
+/// Pairs rise in their first numbers and stay within 0 and 1 in their second, which the schema cannot bound.
+fn pairs(at: &str, pairs: &[[f32; 2]]) -> Result<(), Wrong> {
+    rising(at, &pairs.iter().map(|pair| pair[0]).collect::<Vec<_>>())?;
+    match pairs.iter().position(|pair| !(0.0..=1.0).contains(&pair[1])) {
+        Some(i) => wrong(
+            format!("{at}.{i}"),
+            format!("has {} in `{at}.{i}`, which must be within 0 and 1", pairs[i][1]),
+        ),
+        None => Ok(()),
     }
 }
 
@@ -136,7 +137,7 @@ impl Check for Clip {
             );
         }
         match self.r#box {
-            Some([p, q]) if (0..3).any(|axis| p[axis] == q[axis]) => {
+            Some([p, q]) if (0..3).any(|axis| p[axis] - q[axis] == 0.0) => {
                 wrong("box", "has a box of no volume; its two corners must differ on each axis")
             }
             _ => Ok(()),
@@ -176,7 +177,11 @@ impl Check for Mesh {
                 "has a semi-axis that is not above 0; state three lengths in world units",
             );
         }
-        if self.prism.as_ref().is_some_and(|p| p.from == p.to) {
+        if self
+            .prism
+            .as_ref()
+            .is_some_and(|p| !is_direction(std::array::from_fn(|axis| p.to[axis] - p.from[axis])))
+        {
             return wrong("prism.to", "has a prism of no length; `from` and `to` must differ");
         }
         Ok(())

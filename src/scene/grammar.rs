@@ -192,8 +192,8 @@ fn number_fault(x: f64, schema: &Schema, path: &str) -> Option<String> {
     let most = [("maximum", "at most"), ("exclusiveMaximum", "below")];
     let low = least.iter().find_map(|(key, words)| Some((*key, *words, bound(key)?)));
     let high = most.iter().find_map(|(key, words)| Some((*key, *words, bound(key)?)));
-    let below = low.is_some_and(|(key, _, b)| x < b || (x == b && key == "exclusiveMinimum"));
-    let above = high.is_some_and(|(key, _, b)| x > b || (x == b && key == "exclusiveMaximum"));
+    let below = low.is_some_and(|(key, _, b)| if key == "minimum" { x < b } else { x <= b });
+    let above = high.is_some_and(|(key, _, b)| if key == "maximum" { x > b } else { x >= b });
     let bounds: Vec<_> =
         [low, high].iter().flatten().map(|(_, words, b)| format!("{words} {b}")).collect();
     (below || above).then(|| format!("`{path}` is {x}; it must be {}", bounds.join(" and ")))

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use hecs::World;
 
+use super::entity::unused;
 use super::error::Text;
-use super::parse::{Entry, Stated, parse, unused};
+use super::parse::{Entry, Stated, parse};
 use super::source::Source;
 use super::{lights, overrides, polygons, textures, view, volume};
 use crate::components::{Name, Order};

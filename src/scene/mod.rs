@@ -4,6 +4,7 @@
 //! ([`schema`] is made of it) is where a component is added. Every error points to its line and column.
 
 mod check;
+mod entity;
 mod error;
 mod grammar;
 mod lights;
@@ -15,6 +16,8 @@ mod polygons;
 mod shape;
 mod source;
 mod table;
+#[cfg(test)]
+mod tests;
 mod textures;
 mod view;
 mod volume;

@@ -4,7 +4,8 @@
 pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let distances = known.iter().map(|&k| (edits(word, k), k));
     let (distance, best) = distances.min_by_key(|&(distance, _)| distance)?;
-    (distance <= best.chars().count().div_ceil(3)).then_some(best)
+    let letters = best.chars().count().max(word.chars().count());
+    (distance <= letters.div_ceil(3)).then_some(best)
 }
 
 /// `; did you mean …?` where a known word is near, and the known words in any case.

@@ -1,15 +1,15 @@
 //! TOML to entities with the components that they state, every fault at its line and column.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use hecs::{Entity, EntityBuilder, World};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::entity::{checked, names};
 use super::error::{Fault, SceneError, Text};
 use super::grammar::span_at;
-use super::nearest::{list, suggestion};
+use super::nearest::suggestion;
 use super::table::{COMPONENTS, Row};
 use crate::components::{Name, Order};
 
@@ -49,7 +49,7 @@ pub(super) fn parse(text: Text) -> Result<Stated, SceneError> {
 }
 
 /// The text as a TOML table.
-pub(super) fn root<'t>(text: Text<'t>) -> Result<DeTable<'t>, SceneError> {
+pub(super) fn root(text: Text<'_>) -> Result<DeTable<'_>, SceneError> {
     let table = DeTable::parse(text.text).map_err(|e| {
         let message =
             format!("this is not TOML: {}; see toml.io for how it is written", e.message());
@@ -62,7 +62,7 @@ fn read<'t>(text: Text<'t>, root: &DeTable<'t>) -> Result<Stated<'t>, Fault> {
     let mut stated = Stated { text, world: World::new(), entries: Vec::new() };
     let tables = tables(root)?;
     for (order, (table, name)) in tables.iter().zip(names(&tables)).enumerate() {
-        let (inner, noun) = entity_table(table, &name)?;
+        let (inner, noun) = checked(table, &name)?;
         let mut builder = EntityBuilder::new();
         builder.add(Name(name.clone())).add(Order(order as u32));
         let rows = COMPONENTS.iter().filter_map(|row| Some((row, inner.get(row.key)?)));
@@ -103,100 +103,9 @@ fn tables<'r, 't>(root: &'r DeTable<'t>) -> Result<Vec<&'r Spanned<DeValue<'t>>>
     }
 }
 
-/// The names of entities: as stated, or else what they are, numbered where that name is taken.
-pub(super) fn names(tables: &[&Spanned<DeValue>]) -> Vec<String> {
-    let stated = |table: &Spanned<DeValue>| {
-        Some(table.get_ref().get("name")?.get_ref().as_str()?.to_owned())
-    };
-    let mut taken: BTreeSet<String> = tables.iter().filter_map(|t| stated(t)).collect();
-    let name = |table: &&Spanned<DeValue>| {
-        stated(table).unwrap_or_else(|| {
-            let noun =
-                COMPONENTS.iter().find(|r| r.is_noun() && table.get_ref().get(r.key).is_some());
-            let name = unused(
-                noun.map_or("entity", |row| if row.key == "view" { "observer" } else { row.key }),
-                &taken,
-            );
-            taken.insert(name.clone());
-            name
-        })
-    };
-    tables.iter().map(name).collect()
-}
-
-/// The name, numbered from 2 where it is taken.
-pub(super) fn unused(name: &str, taken: &BTreeSet<String>) -> String {
-    let numbered = (2_u32..).map(|n| format!("{name} {n}"));
-    let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
-    candidates.find(|c| !taken.contains(c)).unwrap_or_default()
-}
-
 /// The names of the entities of a document that may be anything; none where it is no scene.
 pub(super) fn entity_names(root: &DeTable) -> Vec<String> {
     tables(root).map(|tables| names(&tables)).unwrap_or_default()
-}
-
-/// The table of one entity, its keys checked, and the component that says what it is.
-fn entity_table<'r, 't>(
-    value: &'r Spanned<DeValue<'t>>,
-    name: &str,
-) -> Result<(&'r DeTable<'t>, &'static str), Fault> {
-    let Some(table) = value.get_ref().as_table() else {
-        return Err(Fault::new(
-            value.span(),
-            "an entity must be a table: `[[entity]]`, then a component a line",
-        ));
-    };
-    let mut keys: Vec<_> = table.keys().collect();
-    keys.sort_by_key(|key| key.span().start);
-    let mut known = vec!["name"];
-    known.extend(COMPONENTS.iter().map(|row| row.key));
-    if let Some(key) = keys.iter().find(|key| !known.contains(&&**key.get_ref())) {
-        let problem = format!(
-            "entity `{name}`: there is no component `{}`; {}",
-            key.get_ref(),
-            suggestion(key.get_ref(), &known)
-        );
-        return Err(Fault::new(key.span(), problem));
-    }
-    if let Some(stated) = table.get("name")
-        && stated.get_ref().as_str().is_none_or(str::is_empty)
-    {
-        return Err(Fault::new(stated.span(), "`name` must be a string of at least one letter"));
-    }
-    let rows: Vec<_> =
-        keys.iter().filter_map(|key| Some((*key, Row::of(key.get_ref())?))).collect();
-    let lonely = rows
-        .iter()
-        .find(|(_, row)| !row.is_noun() && !row.with.iter().any(|w| table.contains_key(*w)));
-    if let Some((key, row)) = lonely {
-        let remedy = format!(
-            "add {} or take it away",
-            row.with.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(" or ")
-        );
-        return Err(Fault::new(
-            key.span(),
-            format!("entity `{name}` states `{}` without what it belongs to; {remedy}", row.key),
-        ));
-    }
-    let nouns: Vec<_> = rows.iter().filter(|(_, row)| row.is_noun()).collect();
-    match nouns[..] {
-        [(_, row)] => Ok((table, row.key)),
-        [] => {
-            let all: Vec<_> = COMPONENTS.iter().filter(|r| r.is_noun()).map(|r| r.key).collect();
-            Err(Fault::new(
-                value.span(),
-                format!("entity `{name}` is nothing; state one of {}", list(&all)),
-            ))
-        }
-        [(_, first), (key, second), ..] => Err(Fault::new(
-            key.span(),
-            format!(
-                "entity `{name}` is both `{}` and `{}`; make two entities of it",
-                first.key, second.key
-            ),
-        )),
-    }
 }
 
 /// Names are unique, and there is one volume and one view at the most.

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde_json::{Value as Json, json};
 use toml::Spanned;
-use toml::de::{DeValue, ValueDeserializer};
+use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::check::Check;
 use super::error::Fault;
@@ -57,6 +57,11 @@ impl Row {
         self.with.is_empty()
     }
 
+    /// Whether an entity's table lacks all that it makes sense with.
+    pub fn is_lonely(&self, table: &DeTable) -> bool {
+        !self.is_noun() && !self.with.iter().any(|&key| table.contains_key(key))
+    }
+
     /// The JSON schema of the component.
     pub fn schema(&self) -> Json {
         (self.schema)()
@@ -104,7 +109,8 @@ fn shorten(schema: &mut Json) {
         Json::Object(entries) => entries.values_mut().for_each(shorten),
         Json::Array(items) => items.iter_mut().for_each(shorten),
         Json::Number(n) => {
-            let short = n.as_f64().filter(|x| n.is_f64() && f64::from(*x as f32) == *x);
+            let short =
+                n.as_f64().filter(|x| n.is_f64() && f64::from(*x as f32).to_bits() == x.to_bits());
             if let Some(short) = short.and_then(|x| (x as f32).to_string().parse::<f64>().ok()) {
                 *schema = json!(short);
             }

@@ -62,17 +62,13 @@ fn read(loading: &mut Loading, entry: usize, texture: &Texture) -> Result<Pictur
         "`{file}` is not in {} nor in the folders of the data folders",
         loading.folders.list()
     );
-    match &texture.stand_in {
-        Some(formula) => {
-            loading.warn(entry, format!("{missing}: the formula `{formula}` stands in for it; give its folder with --data DIR"));
-            made(loading, "stand_in", formula)
-        }
-        None => {
-            let problem =
-                format!("{missing}; give its folder with --data DIR or state a `stand_in`");
-            Err(loading.error(entry, "texture", "file", problem))
-        }
-    }
+    let Some(formula) = &texture.stand_in else {
+        let problem = format!("{missing}; give its folder with --data DIR or state a `stand_in`");
+        return Err(loading.error(entry, "texture", "file", problem));
+    };
+    let remedy = "give its folder with --data DIR";
+    loading.warn(entry, format!("{missing}: the formula `{formula}` stands in for it; {remedy}"));
+    made(loading, "stand_in", formula)
 }
 
 /// The picture of the texture called `name`: an entity of the scene, else a formula.

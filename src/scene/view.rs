@@ -16,13 +16,16 @@ pub(super) fn extent(loading: &Loading) -> Result<Extent, Error> {
     let faces: Vec<_> = entries.iter().filter_map(|&entry| loading.get::<Faces>(entry)).collect();
     let vertices =
         faces.iter().flat_map(|f| f.0.iter()).flat_map(|f| f.outlines.iter().flatten().copied());
-    Extent::of(corners.chain(vertices)).filter(|extent| extent.radius().is_finite()).ok_or_else(
-        || {
-            let problem =
-                "there is nothing to see; state an entity with a `volume`, a `polygon` or a `mesh`";
-            SceneError::elsewhere(loading.text.file, problem).into()
-        },
-    )
+    let refused = |problem| Err(SceneError::elsewhere(loading.text.file, problem).into());
+    match Extent::of(corners.chain(vertices)) {
+        Some(extent) if extent.radius().is_finite() => Ok(extent),
+        Some(_) => {
+            refused("its coordinates are too far apart to be computed with; state smaller ones")
+        }
+        None => refused(
+            "there is nothing to see; state an entity with a `volume`, a `polygon` or a `mesh`",
+        ),
+    }
 }
 
 /// Gives the view its sampling and the extent of the scene; `exact` takes the settings of `--exact`.

@@ -64,16 +64,12 @@ fn read(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded,
         let problem = format!("{missing}; {remedy} or state a `stand_in`");
         return Err(loading.error(entry, "volume", "file", problem));
     };
-    match read_one(loading, entry, "stand_in", stand_in, &Stated::default())? {
-        Some(read) => {
-            loading.warn(entry, format!("{missing}: `{stand_in}` stands in for it; {remedy}"));
-            Ok((read, true))
-        }
-        None => {
-            let problem = format!("{missing}, and neither is its stand-in `{stand_in}`; {remedy}");
-            Err(loading.error(entry, "volume", "stand_in", problem))
-        }
-    }
+    let Some(read) = read_one(loading, entry, "stand_in", stand_in, &Stated::default())? else {
+        let problem = format!("{missing}, and neither is its stand-in `{stand_in}`; {remedy}");
+        return Err(loading.error(entry, "volume", "stand_in", problem));
+    };
+    loading.warn(entry, format!("{missing}: `{stand_in}` stands in for it; {remedy}"));
+    Ok((read, true))
 }
 
 /// A phantom by its name or a file by its path; `None` for a file that is nowhere.
