@@ -1,17 +1,19 @@
 //! `classify`: which opacity (and colour) a scalar and its gradient get, in one of four ways (algorithm §2).
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use super::Color;
 
 /// A classification: exactly one of `iso`, `regions`, `transfer` or `materials`.
+///
+/// `L` is how the levels of contours are known: a [`Level`] as stated, a number once the volume is read.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Classify {
+#[serde(deny_unknown_fields, bound(deserialize = "L: Deserialize<'de>"))]
+pub struct Classify<L = f32> {
     /// Isovalue contours; several composite as `1 − Π (1 − α_n)`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub iso: Vec<Contour>,
+    pub iso: Vec<Contour<L>>,
     /// Region boundaries between tissues, in rising order of value.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<Tissue>,
@@ -26,17 +28,75 @@ pub struct Classify {
     pub materials: Vec<Material>,
 }
 
+/// The level of a contour, as a scene states it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Level {
+    /// In the units of the scalars.
+    Value(f32),
+    /// `"1.5sigma"`: so many standard deviations of the scalars above their mean, as crystallographers contour maps.
+    Sigma(f64),
+}
+
+impl<'de> Deserialize<'de> for Level {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Value(f32),
+            Sigma(String),
+        }
+        const EXPECTED: &str =
+            "a level is a number or, like \"1.5sigma\", standard deviations above the mean";
+        match Written::deserialize(deserializer).map_err(|_| D::Error::custom(EXPECTED))? {
+            Written::Value(value) => Ok(Self::Value(value)),
+            Written::Sigma(text) => text
+                .strip_suffix("sigma")
+                .and_then(|number| number.trim().parse().ok())
+                .filter(|deviations: &f64| deviations.is_finite())
+                .map(Self::Sigma)
+                .ok_or_else(|| D::Error::custom(format!("\"{text}\" is no level; {EXPECTED}"))),
+        }
+    }
+}
+
+impl Serialize for Level {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Value(value) => serializer.serialize_f32(*value),
+            Self::Sigma(deviations) => serializer.collect_str(&format_args!("{deviations}sigma")),
+        }
+    }
+}
+
+impl JsonSchema for Level {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Level".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "in the units of the scalars, or, like \"1.5sigma\", standard deviations above their mean",
+            "anyOf": [
+                { "type": "number", "format": "float" },
+                { "type": "string", "pattern": "^[-+]?[0-9.]+ *sigma$" }
+            ]
+        })
+    }
+}
+
 /// One isovalue contour `(f_v, α_v, r)` of Levoy 1988.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Contour {
-    /// f_v, in the units of the scalars.
-    pub value: f32,
+pub struct Contour<L = f32> {
+    /// f_v, in the units of the scalars; stated as a [`Level`].
+    pub value: L,
     /// α_v in 0..=1, per opacity unit.
     #[serde(default = "one")]
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
     /// r: thickness of the transition from opaque to clear, in voxels (world: r · opacity unit); above 0.
     #[serde(default = "two")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub thickness_voxels: f32,
     /// Colour of the contour; default: the material's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -50,6 +110,7 @@ pub struct Tissue {
     /// f_{v_n}, in the units of the scalars.
     pub value: f32,
     /// α_{v_n} in 0..=1, per opacity unit.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
     /// Colour of the tissue; default: the material's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -63,6 +124,7 @@ pub struct TransferPoint {
     /// Scalar value.
     pub value: f32,
     /// Opacity in 0..=1, per opacity unit.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
     /// Colour; default: the material's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -74,12 +136,22 @@ pub struct TransferPoint {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Piecewise-linear `[value, probability]` pairs in rising order of value; probabilities of all materials are scaled to sum to at most 1.
+    #[schemars(length(min = 1))]
     pub probability: Vec<[f32; 2]>,
     /// Opacity of the pure material in 0..=1, per opacity unit.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
     /// Colour of the pure material; default: the material's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
+}
+
+impl Contour {
+    /// An opaque contour at `value`, two voxels thick, in the material's colour.
+    #[must_use]
+    pub fn at(value: f32) -> Self {
+        Self { value, opacity: one(), thickness_voxels: two(), color: None }
+    }
 }
 
 fn one() -> f32 {

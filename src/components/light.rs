@@ -13,6 +13,7 @@ pub struct Light {
     pub toward: Toward,
     /// Strength, 0 or above; 1 lights a facing white surface to `diffuse`.
     #[serde(default = "one")]
+    #[schemars(range(min = 0.0))]
     pub strength: f32,
     /// Colour of the light.
     #[serde(default = "white")]
@@ -41,11 +42,13 @@ pub enum Observer {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CastsShadow {
-    /// The strength used at a voxel is that of a point so many voxels nearer to the light.
+    /// The strength used at a voxel is that of a point so many voxels nearer to the light; 0 or above.
+    #[schemars(range(min = 0.0))]
     pub bias_voxels: f64,
     /// k_1 of the falloff `1 / (k_1 + k_2 d)`.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub k1: f64,
-    /// k_2, per world unit of distance from where the light enters the volume's bounding sphere.
+    /// k_2, per world unit of distance from where the light enters the volume's bounding sphere; `k1 + k2 d` must stay above 0 over the scene.
     pub k2: f64,
 }
 

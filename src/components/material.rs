@@ -12,12 +12,16 @@ pub struct Material {
     /// c_p where the classification states no colour of its own.
     pub color: Color,
     /// k_a in 0..=1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub ambient: f32,
     /// k_d in 0..=1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub diffuse: f32,
     /// k_s in 0..=1. Above 0 the shading depends on the observer: a turn of the view then shades again.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub specular: f32,
     /// n, at least 1.
+    #[schemars(range(min = 1.0))]
     pub shininess: f32,
     /// Whether a surface answers light from behind it too.
     pub two_sided: bool,
@@ -43,6 +47,7 @@ impl Default for Material {
 pub struct DepthCue {
     /// k_1, dimensionless.
     #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub k1: f64,
     /// k_2, per world unit; `k1 + k2 d` must stay above 0 over the scene.
     pub k2: f64,

@@ -31,9 +31,11 @@ pub struct Ellipsoid {
     pub radii: [f64; 3],
     /// 0 (an icosahedron) to 6.
     #[serde(default = "three")]
+    #[schemars(range(max = 6))]
     pub subdivisions: u32,
     /// Relative height of smooth lumps, 0 (none) to 0.5: a tumour is no egg.
     #[serde(default)]
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub lumpiness: f64,
 }
 
@@ -46,12 +48,15 @@ pub struct Prism {
     /// Centre of the last end, world.
     pub to: [f64; 3],
     /// Radius of the profile's circumscribed circle at the first end, world units.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub radius: f64,
     /// Radius at the last end; default: `radius`. A beam diverges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub to_radius: Option<f64>,
     /// Sides of the profile, 3 to 256.
     #[serde(default = "four")]
+    #[schemars(range(min = 3, max = 256))]
     pub sides: u32,
 }
 

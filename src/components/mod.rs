@@ -14,7 +14,7 @@ mod texture;
 mod view;
 mod volume;
 
-pub use classify::{Classify, Contour, Material as ClassifyMaterial, Tissue, TransferPoint};
+pub use classify::{Classify, Contour, Level, Material as ClassifyMaterial, Tissue, TransferPoint};
 pub use clip::Clip;
 pub use color::Color;
 pub use light::{CastsShadow, Light, Observer, Toward};
@@ -22,9 +22,9 @@ pub use material::{DepthCue, Material};
 pub use mesh::{Ellipsoid, Mesh, Prism};
 pub use polygon::{Matte, Polygon, Surface, Voxelize};
 pub use sampling::{Filter, PixelFilter, Sampling, Skip, TexelKind};
-pub use texture::{Projects, Texture, TextureFilter, Textured, Wrap};
+pub use texture::{ProjectedBy, Projects, Texture, TextureFilter, Textured, TexturedBy, Wrap};
 pub use view::View;
-pub use volume::Volume;
+pub use volume::{OpacityUnit, Volume};
 
 /// The name of an entity, unique in its scene.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,7 +33,3 @@ pub struct Name(pub String);
 /// The place of an entity in its scene: ties in depth are broken by it, and matting follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Order(pub u32);
-
-/// u, the thickness of the slab that a voxel's opacity is stated for: world units, above 0; resolved from [`Volume`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OpacityUnit(pub f64);

@@ -12,6 +12,7 @@ use super::Color;
 #[serde(deny_unknown_fields)]
 pub struct Polygon {
     /// The outline, at least three vertices in order (either way round).
+    #[schemars(length(min = 3))]
     pub vertices: Vec<[f64; 3]>,
     /// Outlines of holes, in the plane of the polygon.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -25,14 +26,19 @@ pub struct Surface {
     /// c_P.
     pub color: Color,
     /// α_P in 0..=1, of one crossing.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
     /// k_a in 0..=1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub ambient: f32,
     /// k_d in 0..=1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub diffuse: f32,
     /// k_s in 0..=1.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub specular: f32,
     /// n, at least 1.
+    #[schemars(range(min = 1.0))]
     pub shininess: f32,
     /// Whether the side away from a light answers it too.
     pub two_sided: bool,

@@ -9,18 +9,24 @@ use serde::{Deserialize, Serialize};
 pub struct Sampling {
     /// Δ: distance between samples along a ray, world units, above 0; default: the smallest voxel spacing.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub distance_mm: Option<f64>,
     /// What steps over empty space; lossless.
     pub skip: Skip,
     /// ε_T: a ray stops when what is behind can add no more than this to any channel; 0 = never, below 1.
+    #[schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0))]
     pub stop_at: f32,
     /// ε_C: a region whose corners differ in C by more than this in any channel is split; 0 = always.
+    #[schemars(range(min = 0.0))]
     pub tolerance: f32,
     /// ε_G: below a ray a pixel a region is split only if both C_G and C_A range by more than this.
+    #[schemars(range(min = 0.0))]
     pub edge_tolerance: f32,
     /// ω_max: positions between the first rays, a power of two 1..=32; 4 = one ray a pixel.
+    #[schemars(range(min = 1, max = 32))]
     pub coarsest: u32,
     /// ω_min: positions between the last rays, a power of two 1..=`coarsest`.
+    #[schemars(range(min = 1, max = 32))]
     pub finest: u32,
     /// Whether regions that outlines of polygons cross are split to one ray a pixel from the start.
     pub outlines: bool,

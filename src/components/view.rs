@@ -12,6 +12,7 @@ pub struct View {
     /// Turn of the observer about +z through the focal point, degrees.
     pub azimuth: f64,
     /// Height of the observer above the xy plane, degrees, −90..=90.
+    #[schemars(range(min = -90.0, max = 90.0))]
     pub elevation: f64,
     /// Turn of the picture about the line of sight, degrees.
     pub roll: f64,
@@ -20,8 +21,10 @@ pub struct View {
     pub focal_point: Option<[f64; 3]>,
     /// Height of the window in world units, above 0; default: the diameter of the scene's bounding sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub height_mm: Option<f64>,
     /// Pixels across and down, each 1 to 16384.
+    #[schemars(inner(range(min = 1, max = 16384)))]
     pub size: [u32; 2],
     /// What lies behind everything; default: nothing (transparent).
     #[serde(skip_serializing_if = "Option::is_none")]

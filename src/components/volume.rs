@@ -14,6 +14,7 @@ pub struct Volume {
     pub stand_in: Option<String>,
     /// Thickness of the slab that a voxel's opacity is stated for, world units (u in equation 2); default: the smallest spacing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub opacity_unit_mm: Option<f64>,
     /// For a headerless file (`.raw`): voxels on each axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -24,7 +25,15 @@ pub struct Volume {
     /// For a headerless file of more than one byte a voxel: `little` or `big`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub endian: Option<String>,
-    /// Spacing in world units that replaces the file's own; negative flips the axis about the volume's centre.
+    /// Spacing in world units that replaces the file's own, the first voxel staying where it is; negative flips the axis
+    /// about the volume's centre. Like the keys of a headerless file it describes `file`, never the `stand_in`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing_mm: Option<[f64; 3]>,
+    /// The world point that the middle of the volume is moved to, of the file and of the stand-in alike; default: where the file puts it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<[f64; 3]>,
 }
+
+/// u of equation 2, resolved: the thickness in world units of the slab that a voxel's opacity is stated for, above 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OpacityUnit(pub f64);

@@ -1,9 +1,28 @@
 //! Scenes: TOML to entities with components, names and overrides.
+//!
+//! A scene is `[[entity]]` tables: a `name` and a key for each component that the entity states. One table of components
+//! ([`schema`] is made of it) is where a component is added. Every error points to its line and column.
 
-/// A scene that cannot be used: what was found where, what was expected and what to do.
-#[derive(Debug, thiserror::Error)]
-#[error("{message}")]
-pub struct SceneError {
-    /// The sentence.
-    pub message: String,
-}
+mod check;
+mod entity;
+mod error;
+mod grammar;
+mod lights;
+mod load;
+mod nearest;
+mod overrides;
+mod parse;
+mod polygons;
+mod shape;
+mod source;
+mod table;
+#[cfg(test)]
+mod tests;
+mod textures;
+mod view;
+mod volume;
+
+pub use error::SceneError;
+pub use load::{Scene, load};
+pub use source::{EMBEDDED, Source};
+pub use table::schema;

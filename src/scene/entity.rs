@@ -1,0 +1,92 @@
+//! One `[[entity]]` table: what it is called, what it is, and whether its components belong together.
+
+use std::collections::BTreeSet;
+
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::error::Fault;
+use super::nearest::{list, suggestion};
+use super::table::{COMPONENTS, Row};
+
+/// The names of entities: as stated, or else what they are, numbered where that name is taken.
+pub(super) fn names(tables: &[&Spanned<DeValue>]) -> Vec<String> {
+    let stated = |table: &Spanned<DeValue>| {
+        Some(table.get_ref().get("name")?.get_ref().as_str()?.to_owned())
+    };
+    let mut taken: BTreeSet<String> = tables.iter().filter_map(|t| stated(t)).collect();
+    let name = |table: &&Spanned<DeValue>| {
+        stated(table).unwrap_or_else(|| {
+            let noun =
+                COMPONENTS.iter().find(|r| r.is_noun() && table.get_ref().get(r.key).is_some());
+            let name = unused(
+                noun.map_or("entity", |row| if row.key == "view" { "observer" } else { row.key }),
+                &taken,
+            );
+            taken.insert(name.clone());
+            name
+        })
+    };
+    tables.iter().map(name).collect()
+}
+
+/// The name, numbered from 2 where it is taken.
+pub(super) fn unused(name: &str, taken: &BTreeSet<String>) -> String {
+    let numbered = (2_u32..).map(|n| format!("{name} {n}"));
+    let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
+    candidates.find(|c| !taken.contains(c)).unwrap_or_default()
+}
+
+/// The table of one entity, its keys checked, and the component that says what it is.
+pub(super) fn checked<'r, 't>(
+    value: &'r Spanned<DeValue<'t>>,
+    name: &str,
+) -> Result<(&'r DeTable<'t>, &'static str), Fault> {
+    let Some(table) = value.get_ref().as_table() else {
+        let problem = "an entity must be a table: `[[entity]]`, then a component a line";
+        return Err(Fault::new(value.span(), problem));
+    };
+    let mut keys: Vec<_> = table.keys().collect();
+    keys.sort_by_key(|key| key.span().start);
+    let about = |span, problem| Fault::new(span, format!("entity `{name}`{problem}"));
+    if let Some((key, problem)) = unknown(&keys) {
+        return Err(about(key.span(), problem));
+    }
+    if let Some(stated) = table.get("name")
+        && stated.get_ref().as_str().is_none_or(str::is_empty)
+    {
+        return Err(Fault::new(stated.span(), "`name` must be a string of at least one letter"));
+    }
+    let rows: Vec<_> =
+        keys.iter().filter_map(|key| Some((*key, Row::of(key.get_ref())?))).collect();
+    if let Some((key, row)) = rows.iter().find(|(_, row)| row.is_lonely(table)) {
+        let homes = row.with.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(" or ");
+        let problem = format!(
+            " states `{}` without what it belongs to; add {homes} or take it away",
+            row.key
+        );
+        return Err(about(key.span(), problem));
+    }
+    let nouns: Vec<_> = rows.iter().filter(|(_, row)| row.is_noun()).collect();
+    match nouns[..] {
+        [(_, row)] => Ok((table, row.key)),
+        [] => {
+            let all: Vec<_> = COMPONENTS.iter().filter(|r| r.is_noun()).map(|r| r.key).collect();
+            Err(about(value.span(), format!(" is nothing; state one of {}", list(&all))))
+        }
+        [(_, first), (key, second), ..] => Err(about(
+            key.span(),
+            format!(" is both `{}` and `{}`; make two entities of it", first.key, second.key),
+        )),
+    }
+}
+
+/// The first key that is neither `name` nor a component, and the rest of a sentence about it.
+fn unknown<'k, 't>(
+    keys: &[&'k Spanned<DeString<'t>>],
+) -> Option<(&'k Spanned<DeString<'t>>, String)> {
+    let known: Vec<_> = std::iter::once("name").chain(COMPONENTS.iter().map(|r| r.key)).collect();
+    let key = keys.iter().find(|key| !known.contains(&&**key.get_ref()))?;
+    let word = key.get_ref();
+    Some((key, format!(": there is no component `{word}`; {}", suggestion(word, &known))))
+}

@@ -1,0 +1,98 @@
+//! A scene that cannot be used: what was found where, what was expected and what to do.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+
+/// One fault of a scene, with the text that it stands in: shows as one sentence, or as a marked excerpt through miette.
+#[derive(Debug, Clone, thiserror::Error, Diagnostic)]
+#[error("{place}: {message}")]
+pub struct SceneError {
+    /// The sentence: what was found, what was expected and what to do.
+    pub message: String,
+    /// `file:line:column`, both from 1; or what else is at fault, as `--set head.view.sise=1`.
+    pub place: String,
+    /// The text of the scene (or of the override) under its name.
+    #[source_code]
+    pub text: Arc<NamedSource<String>>,
+    /// The bytes of the text that are at fault.
+    #[label("here")]
+    pub span: Option<SourceSpan>,
+}
+
+impl SceneError {
+    /// A fault that no line of a scene is to blame for.
+    pub fn elsewhere(place: impl Into<String>, message: impl Into<String>) -> Self {
+        let place = place.into();
+        let text = Arc::new(NamedSource::new(&place, String::new()));
+        Self { message: message.into(), place, text, span: None }
+    }
+}
+
+/// The text of a scene under its name: what spans point into.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Text<'t> {
+    /// The name of the file.
+    pub file: &'t str,
+    /// What is in it.
+    pub text: &'t str,
+}
+
+impl Text<'_> {
+    /// A fault at some bytes of the text.
+    pub fn error(self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+        let before = self.text.get(..span.start).unwrap_or(self.text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |l| l.chars().count()) + 1;
+        SceneError {
+            message: message.into(),
+            place: format!("{}:{line}:{column}", self.file),
+            text: Arc::new(NamedSource::new(self.file, self.text.to_owned())),
+            span: Some(SourceSpan::from((span.start, span.len()))),
+        }
+    }
+}
+
+/// A fault in some bytes of a text that is not at hand.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// The bytes.
+    pub span: Range<usize>,
+    /// The sentence.
+    pub message: String,
+}
+
+impl Fault {
+    /// A fault at some bytes.
+    pub fn new(span: Range<usize>, message: impl Into<String>) -> Self {
+        Self { span, message: message.into() }
+    }
+
+    /// The error, once the text is at hand.
+    pub fn within(self, text: Text) -> SceneError {
+        text.error(self.span, self.message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_columns_count_from_one_in_characters() {
+        let text = Text { file: "a.toml", text: "x = 1\ncö = 2\n" };
+        assert_eq!(text.error(0..1, "no").to_string(), "a.toml:1:1: no");
+        let at = text.text.rfind('=').unwrap();
+        assert_eq!(text.error(at..at + 1, "no").place, "a.toml:2:4");
+        assert_eq!(text.error(999..1000, "no").place, "a.toml:3:1");
+    }
+
+    #[test]
+    fn the_excerpt_marks_the_fault_in_the_file() {
+        let error = Text { file: "a.toml", text: "x = 1\ny = 2\n" }.error(6..7, "no y");
+        let mut excerpt = String::new();
+        miette::NarratableReportHandler::new().render_report(&mut excerpt, &error).unwrap();
+        assert!(excerpt.contains("y = 2") && excerpt.contains("here"), "{excerpt}");
+    }
+}

@@ -1,0 +1,185 @@
+//! The volume of a scene: its voxels found and placed, its classification resolved to numbers.
+
+use glam::DVec3;
+
+use super::load::Loading;
+use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
+use crate::error::Error;
+use crate::formats::{Loaded, Stated, Voxels, read_volume};
+use crate::grid::{Grid, Scalars};
+use crate::measure::histogram::suggested_isovalues;
+use crate::measure::sigma::sigma;
+use crate::phantom::phantom;
+
+/// Reads the volume that the scene states, if it states one.
+pub(super) fn bring_in(loading: &mut Loading) -> Result<(), Error> {
+    let Some(&entry) = loading.nouns(&["volume"]).first() else { return Ok(()) };
+    let Some(volume) = loading.get::<Volume>(entry) else { return Ok(()) };
+    let (read, stands_in) = read(loading, entry, &volume)?;
+    for warning in read.warnings {
+        loading.warn(entry, warning);
+    }
+    let spacing = if stands_in { None } else { volume.spacing_mm };
+    let grid = placed(&read.grid, spacing, volume.center)
+        .map_err(|problem| loading.error(entry, "volume", "spacing_mm", problem))?;
+    let unit = volume.opacity_unit_mm.unwrap_or_else(|| grid.spacing().min_element());
+    loading.add(entry, (grid, OpacityUnit(unit)));
+    match read.voxels {
+        Voxels::Scalars(scalars) => classified(loading, entry, scalars),
+        Voxels::Painted(painted) => {
+            for (key, stated) in [
+                ("classify", loading.get::<Classify<Level>>(entry).is_some()),
+                ("material", loading.get::<Material>(entry).is_some()),
+            ] {
+                if stated {
+                    let problem = format!(
+                        "`{key}` has no use: the volume is RGBA, classified and shaded already; take it away"
+                    );
+                    return Err(loading.error(entry, key, "", problem));
+                }
+            }
+            loading.add(entry, (painted,));
+            Ok(())
+        }
+    }
+}
+
+/// The voxels of the file, or of what stands in for it.
+fn read(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded, bool), Error> {
+    let stated = Stated {
+        size: volume.size,
+        voxel_type: volume.voxel_type.clone(),
+        endian: volume.endian.clone(),
+        // The sign is a flip about the middle, which is done to any format alike once it is read.
+        spacing_mm: volume.spacing_mm.map(|spacing| spacing.map(f64::abs)),
+    };
+    if let Some(read) = read_one(loading, entry, "file", &volume.file, &stated)? {
+        return Ok((read, false));
+    }
+    let folders = loading.folders.list();
+    let missing =
+        format!("`{}` is not in {folders} nor in the folders of the data folders", volume.file);
+    let remedy = "give its folder with --data DIR";
+    let Some(stand_in) = &volume.stand_in else {
+        let problem = format!("{missing}; {remedy} or state a `stand_in`");
+        return Err(loading.error(entry, "volume", "file", problem));
+    };
+    let Some(read) = read_one(loading, entry, "stand_in", stand_in, &Stated::default())? else {
+        let problem = format!("{missing}, and neither is its stand-in `{stand_in}`; {remedy}");
+        return Err(loading.error(entry, "volume", "stand_in", problem));
+    };
+    loading.warn(entry, format!("{missing}: `{stand_in}` stands in for it; {remedy}"));
+    Ok((read, true))
+}
+
+/// A phantom by its name or a file by its path; `None` for a file that is nowhere.
+fn read_one(
+    loading: &Loading,
+    entry: usize,
+    key: &str,
+    file: &str,
+    stated: &Stated,
+) -> Result<Option<Loaded>, Error> {
+    if let Some(name) = file.strip_prefix("phantom:") {
+        let made = phantom(name.trim());
+        return made.map(Some).map_err(|problem| loading.error(entry, "volume", key, problem));
+    }
+    loading.folders.find(file).map(|path| read_volume(&path, stated)).transpose()
+}
+
+/// The grid with other spacings (negative flips about the middle) and its middle moved to `center`.
+fn placed(
+    grid: &Grid,
+    spacing: Option<[f64; 3]>,
+    center: Option<[f64; 3]>,
+) -> Result<Grid, String> {
+    let mut placement = grid.index_to_world;
+    let last = DVec3::from(grid.size.map(|n| (n - 1) as f64));
+    for (axis, length) in spacing.into_iter().flatten().enumerate() {
+        let column = placement.matrix3.col(axis).normalize() * length;
+        *placement.matrix3.col_mut(axis) = column;
+        if length < 0.0 {
+            placement.translation -= column * last[axis];
+        }
+    }
+    if let Some(center) = center {
+        placement.translation += DVec3::from(center) - placement.transform_point3(last / 2.0);
+    }
+    Grid::new(grid.size, placement)
+}
+
+/// Puts scalars on the entity, with a classification in numbers and a material.
+fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(), Error> {
+    let classify = match loading.get::<Classify<Level>>(entry) {
+        Some(stated) => in_numbers(loading, entry, stated, &scalars)?,
+        None => suggested(loading, entry, &scalars)?,
+    };
+    let material = loading.get::<Material>(entry).unwrap_or_default();
+    let _ = loading.world.remove_one::<Classify<Level>>(loading.entries[entry].entity);
+    loading.add(entry, (scalars, classify, material));
+    Ok(())
+}
+
+/// A contour at the isovalue that the histogram suggests, where the scene states no classification.
+fn suggested(loading: &mut Loading, entry: usize, scalars: &Scalars) -> Result<Classify, Error> {
+    let Some(&value) = suggested_isovalues(scalars).first() else {
+        let problem = "the volume suggests no isovalue (its voxels are all alike or not numbers); state `classify`";
+        return Err(loading.error(entry, "volume", "", problem));
+    };
+    loading.warn(entry, format!("no `classify` is stated, so its surface is drawn at the isovalue {value} that its histogram suggests"));
+    Ok(Classify { iso: vec![Contour::at(value)], ..Classify::default() })
+}
+
+/// Levels in standard deviations as numbers.
+fn in_numbers(
+    loading: &Loading,
+    entry: usize,
+    stated: Classify<Level>,
+    scalars: &Scalars,
+) -> Result<Classify, Error> {
+    let any = stated.iso.iter().any(|c| matches!(c.value, Level::Sigma(_)));
+    let statistics = if any { sigma(scalars) } else { None };
+    let number = |(i, contour): (usize, Contour<Level>)| {
+        let value = match (contour.value, statistics) {
+            (Level::Value(value), _) => Some(value),
+            (Level::Sigma(k), Some(s)) => {
+                Some((s.mean + k * s.deviation) as f32).filter(|v| v.is_finite())
+            }
+            (Level::Sigma(_), None) => None,
+        };
+        let problem =
+            "a level in sigma needs a volume whose mean and deviation are finite; state a number";
+        let value = value
+            .ok_or_else(|| loading.error(entry, "classify", &format!("iso.{i}.value"), problem))?;
+        let Contour { opacity, thickness_voxels, color, .. } = contour;
+        Ok(Contour { value, opacity, thickness_voxels, color })
+    };
+    let iso = stated.iso.into_iter().enumerate().map(number).collect::<Result<_, Error>>()?;
+    let Classify { regions, transfer, gradient, materials, .. } =
+        Classify::<Level> { iso: Vec::new(), ..stated };
+    Ok(Classify { iso, regions, transfer, gradient, materials })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid() -> Grid {
+        Grid::axis_aligned([256, 256, 113], [1.0, 1.0, 2.0], [0.0; 3]).unwrap()
+    }
+
+    #[test]
+    fn a_negative_spacing_flips_about_the_middle() {
+        let flipped = placed(&grid(), Some([1.0, 1.0, -2.0]), None).unwrap();
+        let at = |g: &Grid, z| g.index_to_world.transform_point3(DVec3::new(5.0, 6.0, z));
+        assert_eq!(at(&flipped, 0.0), DVec3::new(5.0, 6.0, 224.0));
+        assert_eq!(at(&flipped, 112.0), DVec3::new(5.0, 6.0, 0.0));
+    }
+
+    #[test]
+    fn the_middle_is_moved_to_the_centre_that_is_stated() {
+        let moved = placed(&grid(), Some([1.0, 1.0, -2.0]), Some([1.0, 0.0, 0.0])).unwrap();
+        assert_eq!(moved.corners()[0], DVec3::new(-126.5, -127.5, 112.0));
+        assert_eq!(moved.corners()[7], DVec3::new(128.5, 127.5, -112.0));
+    }
+}
