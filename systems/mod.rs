@@ -2,5 +2,17 @@
 
 use crate::schedule::Job;
 
+pub mod classify;
+pub mod gradient;
+pub mod pyramid;
+pub mod relight;
+pub mod shade;
+
 /// Every job, in any order: the schedule derives it.
-pub static JOBS: &[Job] = &[];
+pub static JOBS: &[Job] = &[
+    Job::of::<gradient::TakeGradient>(),
+    Job::of::<classify::Classify>(),
+    Job::of::<shade::Shade>(),
+    Job::of::<relight::Relight>(),
+    Job::of::<pyramid::StackPyramid>(),
+];
