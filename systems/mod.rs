@@ -1,12 +1,22 @@
 //! The systems: a stage of the paper's figures 1, 4 and 5 per file, and the one table of jobs.
 
-mod cast;
-mod resample;
-
-pub use cast::Cast;
-pub use resample::Resample;
+pub mod cast;
+pub mod classify;
+pub mod gradient;
+pub mod pyramid;
+pub mod relight;
+pub mod resample;
+pub mod shade;
 
 use crate::schedule::Job;
 
 /// Every job, in any order: the schedule derives it.
-pub static JOBS: &[Job] = &[Job::of::<Cast>(), Job::of::<Resample>()];
+pub static JOBS: &[Job] = &[
+    Job::of::<gradient::TakeGradient>(),
+    Job::of::<classify::Classify>(),
+    Job::of::<shade::Shade>(),
+    Job::of::<relight::Relight>(),
+    Job::of::<pyramid::StackPyramid>(),
+    Job::of::<cast::Cast>(),
+    Job::of::<resample::Resample>(),
+];

@@ -1,0 +1,110 @@
+//! Isovalue contours of Levoy 1988: opaque at `f_v`, falling to clear at a world distance that is stated in voxels.
+
+use glam::DVec3;
+
+use super::{opacity_in_range, square};
+use crate::components::{Color, Contour};
+
+/// `α_v (1 − |f_v − f| / (r g))` for one or more contours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contours(Vec<Line>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Line {
+    /// f_v.
+    value: f64,
+    /// α_v.
+    opacity: f64,
+    /// r² in world units.
+    squared_reach: f64,
+    color: DVec3,
+}
+
+impl Line {
+    /// α of this contour alone at scalar `f` and squared gradient `gg`; 0 for a NaN.
+    #[inline]
+    fn opacity(&self, f: f64, gg: f64) -> f64 {
+        let away = self.value - f;
+        let (away, reach) = (away * away, self.squared_reach * gg);
+        if away < reach {
+            self.opacity * (1.0 - (away / reach).sqrt())
+        } else if away == 0.0 {
+            self.opacity
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Contours {
+    /// Contours of a volume of opacity unit `unit`; those without a colour of their own take `color`.
+    pub fn new(stated: &[Contour], color: DVec3, unit: f64) -> Self {
+        let line = |contour: &Contour| {
+            let reach = (f64::from(contour.thickness_voxels) * unit).max(0.0);
+            Line {
+                value: f64::from(contour.value),
+                opacity: opacity_in_range(contour.opacity),
+                squared_reach: reach * reach,
+                color: contour.color.map_or(color, |Color(own)| own.as_dvec3()),
+            }
+        };
+        Self(stated.iter().map(line).collect())
+    }
+
+    /// `1 − Π (1 − α_n)`.
+    #[inline]
+    pub fn opacity(&self, f: f64, gradient: [f32; 3]) -> f64 {
+        let gg = square(gradient);
+        self.0.iter().fold(0.0, |alpha, line| {
+            let own = line.opacity(f, gg);
+            alpha + (1.0 - alpha) * own
+        })
+    }
+
+    /// The mean of the contours' colours, each weighted by its opacity; `None` where there is none.
+    pub fn color(&self, f: f64, gradient: [f32; 3]) -> Option<DVec3> {
+        let gg = square(gradient);
+        let weighted = self.0.iter().map(|line| (line.opacity(f, gg), line.color));
+        super::weighted_mean(weighted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contour(value: f32, opacity: f32, thickness_voxels: f32) -> Contour {
+        Contour { value, opacity, thickness_voxels, color: None }
+    }
+
+    #[test]
+    fn a_contour_falls_from_its_opacity_to_nothing_over_its_thickness() {
+        // r = 2 voxels of 1.5 mm, g = 10 per mm: the contour reaches 30 units of f to each side.
+        let contours = Contours::new(&[contour(100.0, 0.8, 2.0)], DVec3::ONE, 1.5);
+        let at = |f: f64| contours.opacity(f, [0.0, 8.0, 6.0]);
+        assert_eq!(at(100.0), f64::from(0.8_f32));
+        assert!((at(85.0) - 0.4).abs() < 1e-7 && (at(115.0) - 0.4).abs() < 1e-7);
+        assert!((at(124.0) - 0.16).abs() < 1e-7);
+        assert_eq!([at(130.0), at(69.0), at(f64::INFINITY), at(f64::NAN)], [0.0; 4]);
+    }
+
+    #[test]
+    fn where_nothing_changes_only_the_isovalue_itself_is_opaque() {
+        let contours = Contours::new(&[contour(100.0, 0.8, 2.0)], DVec3::ONE, 1.0);
+        assert_eq!(contours.opacity(100.0, [0.0; 3]), f64::from(0.8_f32));
+        assert_eq!(contours.opacity(100.000_01, [0.0; 3]), 0.0);
+    }
+
+    #[test]
+    fn several_contours_composite_and_mix_their_colors_by_opacity() {
+        let red = Contour { color: Some(Color(glam::Vec3::X)), ..contour(0.0, 1.0, 1.0) };
+        let blue = Contour { color: Some(Color(glam::Vec3::Z)), ..contour(10.0, 0.5, 1.0) };
+        let contours = Contours::new(&[red, blue], DVec3::ONE, 1.0);
+        // At f = 4 and g = 10: α_1 = 0.6, α_2 = 0.5 · 0.4 = 0.2.
+        let gradient = [10.0, 0.0, 0.0];
+        assert!((contours.opacity(4.0, gradient) - 0.68).abs() < 1e-12);
+        let color = contours.color(4.0, gradient).unwrap();
+        assert!(color.distance(DVec3::new(0.75, 0.0, 0.25)) < 1e-12);
+        assert_eq!(contours.color(40.0, gradient), None);
+    }
+}

@@ -1,0 +1,88 @@
+//! Piecewise-linear functions, as classifications state them: straight between points, constant beyond the ends.
+
+use std::ops::{Add, Mul};
+
+/// Points in rising order; two at one place are a step, and the later counts from there on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve<V>(Vec<(f64, V)>);
+
+impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Curve<V> {
+    /// A curve through points `(place, value)`. They are sorted; a place that is not finite is left out.
+    pub fn new(points: impl IntoIterator<Item = (f32, V)>) -> Self {
+        let finite = points.into_iter().filter(|(place, _)| place.is_finite());
+        let mut points: Vec<_> = finite.map(|(place, value)| (f64::from(place), value)).collect();
+        points.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        Self(points)
+    }
+
+    /// The points that `place` lies between, and how far it is from the first to the second, 0..=1.
+    ///
+    /// Beyond an end both are that end. `None` without points or for a NaN.
+    pub fn around(&self, place: f64) -> Option<[&(f64, V); 2]> {
+        if place.is_nan() {
+            return None;
+        }
+        let next = self.0.partition_point(|(at, _)| *at <= place);
+        let low = self.0.get(next.saturating_sub(1))?;
+        Some([low, self.0.get(next).filter(|_| next > 0).unwrap_or(low)])
+    }
+
+    /// The value at `place`, infinite ones included; `None` without points or for a NaN.
+    pub fn value(&self, place: f64) -> Option<V> {
+        let [low, high] = self.around(place)?;
+        let span = high.0 - low.0;
+        let toward = if span > 0.0 { (place - low.0) / span } else { 0.0 };
+        Some(low.1 * (1.0 - toward) + high.1 * toward)
+    }
+
+    /// The first and last place; none without points.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        Some([self.0.first()?.0, self.0.last()?.0])
+    }
+}
+
+impl Curve<f64> {
+    /// The interval outside of which the value is surely 0; from ∞ to −∞ if it is 0 everywhere.
+    pub fn support(&self) -> [f64; 2] {
+        let some = |point: &(f64, f64)| point.1 > 0.0;
+        let (first, last) = (self.0.iter().position(some), self.0.iter().rposition(some));
+        let (Some(first), Some(last)) = (first, last) else {
+            return [f64::INFINITY, f64::NEG_INFINITY];
+        };
+        let low = if first == 0 { f64::NEG_INFINITY } else { self.0[first - 1].0 };
+        [low, self.0.get(last + 1).map_or(f64::INFINITY, |point| point.0)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_is_straight_between_points_and_constant_beyond() {
+        let curve = Curve::new([(4.0, 1.0), (2.0, 0.0), (f32::NAN, 9.0)]);
+        let at = |place: f64| curve.value(place).unwrap();
+        assert_eq!([at(1.0), at(2.5), at(4.0), at(f64::INFINITY)], [0.0, 0.25, 1.0, 1.0]);
+        assert_eq!(at(f64::NEG_INFINITY), 0.0);
+        assert_eq!(curve.value(f64::NAN), None);
+        assert_eq!(Curve::<f64>::new([]).value(0.0), None);
+    }
+
+    #[test]
+    fn two_points_at_one_place_are_a_step() {
+        let curve = Curve::new([(0.0, 0.0), (1.0, 0.25), (1.0, 0.75), (2.0, 1.0)]);
+        let at = |place: f64| curve.value(place).unwrap();
+        assert_eq!([at(0.5), at(1.0), at(1.5)], [0.125, 0.75, 0.875]);
+        assert_eq!(Curve::new([(1.0, 0.25), (1.0, 0.75)]).value(1.0), Some(0.75));
+    }
+
+    #[test]
+    fn outside_its_support_a_curve_is_zero() {
+        let hill = Curve::new([(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (3.0, 0.0), (4.0, 0.0)]);
+        assert_eq!(hill.support(), [1.0, 3.0]);
+        let step = Curve::new([(0.0, 0.0), (0.0, 1.0)]);
+        assert_eq!(step.support(), [0.0, f64::INFINITY]);
+        let nothing = Curve::new([(0.0, 0.0)]).support();
+        assert!(nothing[0] > nothing[1]);
+    }
+}

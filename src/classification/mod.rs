@@ -1,0 +1,132 @@
+//! Classification: the opacity and colour of a voxel from its scalar and gradient (algorithm §2).
+
+mod contour;
+mod curve;
+mod mixture;
+mod regions;
+mod transfer;
+
+use glam::{DVec3, Vec3};
+
+use crate::components::{Classify, Material};
+use contour::Contours;
+use mixture::Mixture;
+use regions::Regions;
+use transfer::Transfer;
+
+/// A stated classification, made ready to be asked voxel by voxel.
+///
+/// Whatever is asked (NaN, infinite, constant), opacities are in 0..=1 and colours are finite. Stated numbers outside
+/// their range are taken as the nearest within it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Classifier {
+    how: How,
+    range: [f64; 2],
+    /// c_p where the classification states no colour of its own.
+    color: Vec3,
+    /// Whether it states any.
+    colored: bool,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum How {
+    Contours(Contours),
+    Regions(Regions),
+    Transfer(Transfer),
+    Mixture(Mixture),
+}
+
+impl Classifier {
+    /// The classification of a volume of opacity unit `unit` (world units); `material` gives the default colour.
+    ///
+    /// Of several ways stated at once the first in the order of [`Classify`] counts; of none, all is clear.
+    #[must_use]
+    pub fn new(stated: &Classify, material: &Material, unit: f64) -> Self {
+        let Classify { iso, regions, transfer, gradient, materials } = stated;
+        let color = material.color.0.as_dvec3();
+        let (how, range, colored) = if !iso.is_empty() {
+            let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
+            let colored = iso.iter().any(|contour| contour.color.is_some());
+            (How::Contours(Contours::new(iso, color, unit)), everywhere, colored)
+        } else if !regions.is_empty() {
+            let made = Regions::new(regions, color, unit);
+            let (range, colored) = (made.range(), regions.iter().any(|t| t.color.is_some()));
+            (How::Regions(made), range, colored)
+        } else if !transfer.is_empty() {
+            let made = Transfer::new(transfer, gradient, color);
+            let (range, colored) = (made.range(), transfer.iter().any(|p| p.color.is_some()));
+            (How::Transfer(made), range, colored)
+        } else {
+            let made = Mixture::new(materials, color);
+            let (range, colored) = (made.range(), materials.iter().any(|m| m.color.is_some()));
+            (How::Mixture(made), range, colored)
+        };
+        Self { how, range, color: material.color.0, colored }
+    }
+
+    /// α in 0..=1 per opacity unit of a voxel of scalar `value` and world `gradient`; 0 for a NaN.
+    #[must_use]
+    #[inline]
+    pub fn opacity(&self, value: f32, gradient: [f32; 3]) -> f32 {
+        let f = f64::from(value);
+        if !(f >= self.range[0] && f <= self.range[1]) {
+            return 0.0;
+        }
+        let alpha = match &self.how {
+            How::Contours(contours) => contours.opacity(f, gradient),
+            How::Regions(regions) => regions.opacity(f, gradient),
+            How::Transfer(transfer) => transfer.opacity(f, gradient),
+            How::Mixture(mixture) => mixture.opacity(f),
+        };
+        // A NaN becomes 0 here too: `max` prefers the number.
+        alpha.max(0.0).min(1.0) as f32
+    }
+
+    /// c_p, linear, of a voxel of scalar `value` and world `gradient`.
+    ///
+    /// The stated colours of contours, tissues and materials count by their part in the opacity; those of transfer points
+    /// are interpolated. Where nothing is seen it is the material's.
+    #[must_use]
+    pub fn color(&self, value: f32, gradient: [f32; 3]) -> Vec3 {
+        if !self.colored {
+            return self.color;
+        }
+        let f = f64::from(value);
+        let own = match &self.how {
+            How::Contours(contours) => contours.color(f, gradient),
+            How::Regions(regions) => regions.color(f),
+            How::Transfer(transfer) => transfer.color(f),
+            How::Mixture(mixture) => mixture.color(f),
+        };
+        own.map(DVec3::as_vec3).filter(|color| color.is_finite()).unwrap_or(self.color)
+    }
+
+    /// The scalars outside of which the opacity is surely 0, whatever the gradient; `low > high` if it is 0 everywhere.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        self.range
+    }
+}
+
+/// |∇f|², in 64 bits: neither the smallest nor the largest gradients of 32 bits are lost.
+#[inline]
+fn square(gradient: [f32; 3]) -> f64 {
+    let [x, y, z] = gradient.map(f64::from);
+    x * x + y * y + z * z
+}
+
+/// A stated opacity or probability within 0..=1; 0 for a NaN.
+fn opacity_in_range(stated: f32) -> f64 {
+    f64::from(stated).max(0.0).min(1.0)
+}
+
+/// The mean of some colours, each by its weight; `None` if the weights sum to 0.
+fn weighted_mean(parts: impl Iterator<Item = (f64, DVec3)>) -> Option<DVec3> {
+    let (weight, sum) = parts.fold((0.0, DVec3::ZERO), |(weight, sum), (part, color)| {
+        (weight + part, sum + color * part)
+    });
+    (weight > 0.0).then(|| sum / weight)
+}
+
+#[cfg(test)]
+mod tests;

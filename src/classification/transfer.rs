@@ -1,0 +1,72 @@
+//! Piecewise-linear transfer functions of the scalar, optionally times one of the gradient.
+
+use glam::DVec3;
+
+use super::curve::Curve;
+use super::{opacity_in_range, square};
+use crate::components::{Color, TransferPoint};
+
+/// What every other program calls a transfer function.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transfer {
+    opacity: Curve<f64>,
+    color: Curve<DVec3>,
+    /// A factor of the gradient magnitude.
+    factor: Option<Curve<f64>>,
+}
+
+impl Transfer {
+    /// A transfer function with its factors `[magnitude, factor]`; points without a colour of their own take `color`.
+    pub fn new(stated: &[TransferPoint], factors: &[[f32; 2]], color: DVec3) -> Self {
+        let own = |p: &TransferPoint| p.color.map_or(color, |Color(own)| own.as_dvec3());
+        let factor =
+            Curve::new(factors.iter().map(|[magnitude, factor]| (*magnitude, f64::from(*factor))));
+        Self {
+            opacity: Curve::new(stated.iter().map(|p| (p.value, opacity_in_range(p.opacity)))),
+            color: Curve::new(stated.iter().map(|p| (p.value, own(p)))),
+            factor: factor.ends().map(|_| factor),
+        }
+    }
+
+    /// The opacity at `f`, times the factor at the gradient's magnitude.
+    #[inline]
+    pub fn opacity(&self, f: f64, gradient: [f32; 3]) -> f64 {
+        let alpha = self.opacity.value(f).unwrap_or(0.0);
+        match &self.factor {
+            Some(factor) if alpha > 0.0 => {
+                alpha * factor.value(square(gradient).sqrt()).unwrap_or(0.0)
+            }
+            _ => alpha,
+        }
+    }
+
+    /// The colour at `f`; `None` without points.
+    pub fn color(&self, f: f64) -> Option<DVec3> {
+        self.color.value(f)
+    }
+
+    /// The values outside of which the opacity is surely 0.
+    pub fn range(&self) -> [f64; 2] {
+        self.opacity.support()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_transfer_function_is_interpolated_and_weighted_by_the_gradient() {
+        let point = |value, opacity, color| TransferPoint { value, opacity, color };
+        let points = [point(10.0, 0.0, Some(Color(glam::Vec3::X))), point(20.0, 0.8, None)];
+        let plain = Transfer::new(&points, &[], DVec3::Z);
+        let weighted = Transfer::new(&points, &[[2.0, 0.0], [4.0, 1.0]], DVec3::Z);
+        let gradient = [0.0, 0.0, 3.0];
+        assert!((plain.opacity(15.0, gradient) - 0.4).abs() < 1e-7);
+        assert!((weighted.opacity(15.0, gradient) - 0.2).abs() < 1e-7);
+        assert_eq!(weighted.opacity(15.0, [1.0, 0.0, 0.0]), 0.0);
+        assert_eq!(plain.opacity(f64::INFINITY, gradient), f64::from(0.8_f32));
+        assert_eq!(plain.color(12.5), Some(DVec3::new(0.75, 0.0, 0.25)));
+        assert_eq!(plain.range(), [10.0, f64::INFINITY]);
+    }
+}
