@@ -143,17 +143,19 @@ impl Pieces {
 
     /// The sum of a row's texels, each times its share.
     fn weighed(&self, texels: &[Vec4], columns: &Cells, wrap: Wrap) -> DVec4 {
+        let texel = |column| wrapped(column, texels.len(), wrap).map(|x| texels[x].as_dvec4());
+        let Range { start, end } = columns.numbers;
         let (full, height) = self.between();
-        let (mut sum, mut inside) = (DVec4::ZERO, DVec4::ZERO);
-        for column in columns.numbers.clone() {
-            let Some(x) = wrapped(column, texels.len(), wrap) else { continue };
-            let (texel, reach) = (texels[x].as_dvec4(), columns.borders(column));
-            if reach.start >= full.start && reach.end <= full.end {
-                inside += texel * (reach.end - reach.start);
-            } else {
-                sum += texel * (self.left_of(reach.end) - self.left_of(reach.start));
-            }
-        }
-        sum + inside * height
+        // The outermost columns may be wider than a texel; those between, from edge to edge, count alike.
+        let inner_start = (full.start.ceil() as i64).max(start + 1).min(end);
+        let inner_end = (full.end.floor() as i64).min(end - 1).max(inner_start);
+        let shared = |column: i64| {
+            let reach = columns.borders(column);
+            let share = self.left_of(reach.end) - self.left_of(reach.start);
+            texel(column).map(|texel| texel * share)
+        };
+        let inner: DVec4 = (inner_start..inner_end).filter_map(texel).sum();
+        let outer: DVec4 = (start..inner_start).chain(inner_end..end).filter_map(shared).sum();
+        inner * height + outer
     }
 }

@@ -96,3 +96,85 @@ fn corners(face: &Face, textured: &Textured) -> Result<[DVec3; 3], String> {
         ),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::components::{TextureFilter, Wrap};
+
+    fn face() -> Face {
+        let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (0.0, 2.0)];
+        Face::new(vec![square.map(|(x, z)| DVec3::new(x, 1.0, 2.0 - z)).to_vec()]).unwrap()
+    }
+
+    fn textured(corners: Option<[[f64; 3]; 3]>, repeats: [f64; 2]) -> Textured {
+        let (wrap, filter) = (Wrap::Repeat, TextureFilter::Ellipse);
+        Textured { texture: "checker".to_owned(), corners, repeats, wrap, filter }
+    }
+
+    fn camera(forward: DVec3) -> Camera {
+        let right = forward.any_orthonormal_vector();
+        let (focal, size) = (DVec3::new(0.3, 0.2, 0.1), [100, 80]);
+        Camera { right, up: right.cross(forward), forward, focal, pixel: 0.125, size }
+    }
+
+    #[test]
+    fn the_first_second_and_last_vertex_are_top_left_top_right_and_bottom_left() {
+        let mapping = Mapping::new(&face(), &textured(None, [1.0, 3.0])).unwrap();
+        for (world, uv) in [
+            ([0.0, 1.0, 2.0], [0.0, 0.0]),
+            ([4.0, 1.0, 2.0], [1.0, 0.0]),
+            ([0.0, 1.0, 0.0], [0.0, 3.0]),
+            ([2.0, 1.0, 1.0], [0.5, 1.5]),
+        ] {
+            assert!(mapping.at(DVec3::from(world)).abs_diff_eq(DVec2::from(uv), 1e-12));
+        }
+    }
+
+    #[test]
+    fn skewed_corners_span_a_parallelogram() {
+        let corners = [[1.0, 1.0, 1.0], [3.0, 1.0, 1.5], [0.5, 1.0, 0.0]];
+        let mapping = Mapping::new(&face(), &textured(Some(corners), [1.0, 1.0])).unwrap();
+        let [origin, right, below] = corners.map(DVec3::from);
+        let place = origin + 0.25 * (right - origin) + 1.75 * (below - origin);
+        assert!(mapping.at(place).abs_diff_eq(DVec2::new(0.25, 1.75), 1e-12));
+    }
+
+    #[test]
+    fn a_footprint_is_how_far_apart_the_rays_of_a_region_meet_the_plane_in_the_texture() {
+        let mapping = Mapping::new(&face(), &textured(None, [2.0, 1.0])).unwrap();
+        for forward in [[0.0, 1.0, 0.0], [0.3, -0.7, 0.4], [-0.9, 0.1, 0.2]] {
+            let camera = camera(DVec3::from(forward).normalize());
+            let uv = |x: f64, y: f64| {
+                let ray = camera.origin(DVec2::new(x, y));
+                mapping.at(ray + camera.forward * ((1.0 - ray.y) / camera.forward.y))
+            };
+            let sides = mapping.footprint(&camera, 0.5).sides();
+            assert!(sides.x_axis.abs_diff_eq(uv(7.5, 3.0) - uv(7.0, 3.0), 1e-12));
+            assert!(sides.y_axis.abs_diff_eq(uv(7.0, 3.5) - uv(7.0, 3.0), 1e-12));
+        }
+    }
+
+    #[test]
+    fn a_face_seen_edge_on_has_a_footprint_that_is_huge_and_finite() {
+        let mapping = Mapping::new(&face(), &textured(None, [1.0, 1.0])).unwrap();
+        let sides = mapping.footprint(&camera(DVec3::X), 1.0).sides();
+        assert!(sides.is_finite());
+        assert!(sides.x_axis.length().max(sides.y_axis.length()) > 1e3);
+    }
+
+    #[test]
+    fn corners_that_span_nothing_and_repeats_of_nothing_are_refused_with_a_remedy() {
+        let refused =
+            |corners, repeats| Mapping::new(&face(), &textured(corners, repeats)).unwrap_err();
+        let line = [[0.0, 1.0, 0.0], [1.0, 1.0, 1.0], [2.0, 1.0, 2.0]];
+        let upright = [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
+        let nowhere = [[0.0, 1.0, 0.0], [f64::NAN, 1.0, 0.0], [0.0, 1.0, f64::INFINITY]];
+        for corners in [line, [[1.0; 3]; 3], nowhere, upright] {
+            assert!(refused(Some(corners), [1.0, 1.0]).contains("state `corners`"));
+        }
+        for repeats in [[0.0, 1.0], [1.0, -2.0], [f64::NAN, 1.0]] {
+            assert!(refused(None, repeats).contains("above 0"));
+        }
+    }
+}

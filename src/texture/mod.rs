@@ -91,3 +91,6 @@ impl Texture {
         if self.wrap == Wrap::Repeat { uv - uv.floor() } else { uv }
     }
 }
+
+#[cfg(test)]
+mod tests;
