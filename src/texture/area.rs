@@ -77,62 +77,81 @@ impl Cells {
     }
 }
 
-/// The parts of a parallelogram's edges within a row: x at both ends, and how far they go in y, signed.
+/// The part of an edge within a row.
+#[derive(Clone, Copy, Default)]
+struct Piece {
+    /// The least and the greatest x.
+    low: f64,
+    high: f64,
+    /// How far it goes in y, signed.
+    dy: f64,
+    /// dy / (2 (high − low)).
+    bend: f64,
+}
+
+impl Piece {
+    /// The signed area between the piece and the axis x = 0, where it reaches past x = `border` only up to there.
+    fn left_of(&self, border: f64) -> f64 {
+        if border >= self.high {
+            self.dy * f64::midpoint(self.low, self.high)
+        } else if border <= self.low {
+            self.dy * border
+        } else {
+            self.dy * border - self.bend * (border - self.low) * (border - self.low)
+        }
+    }
+}
+
+/// The parts of a parallelogram's edges within a row.
 struct Pieces {
-    parts: [(f64, f64, f64); 4],
+    parts: [Piece; 4],
     count: usize,
 }
 
 impl Pieces {
     fn new(corners: &[DVec2; 4], row: Range<f64>) -> Self {
-        let mut pieces = Self { parts: [(0.0, 0.0, 0.0); 4], count: 0 };
+        let mut pieces = Self { parts: [Piece::default(); 4], count: 0 };
         for (i, &from) in corners.iter().enumerate() {
             let to = corners[(i + 1) % 4];
             let (y, end) = (from.y.clamp(row.start, row.end), to.y.clamp(row.start, row.end));
             if y != end {
-                let x = |y: f64| from.x + (to.x - from.x) * ((y - from.y) / (to.y - from.y));
-                pieces.parts[pieces.count] = (x(y), x(end), end - y);
+                // Parts of 0 and of 1 keep the corners as they are, however flat the edge.
+                let part = |y: f64| (y - from.y) / (to.y - from.y);
+                let x = |y: f64| from.x + (to.x - from.x) * part(y);
+                let (a, b) = (x(y), x(end));
+                let (low, high, dy) = (a.min(b), a.max(b), end - y);
+                pieces.parts[pieces.count] =
+                    Piece { low, high, dy, bend: dy / (2.0 * (high - low)) };
                 pieces.count += 1;
             }
         }
         pieces
     }
 
-    fn iter(&self) -> impl Iterator<Item = &(f64, f64, f64)> {
+    fn iter(&self) -> impl Iterator<Item = &Piece> {
         self.parts[..self.count].iter()
     }
 
     /// The least and the greatest x; `None` where no edge passes the row.
     fn span(&self) -> Option<Range<f64>> {
-        let low = self.iter().map(|&(a, b, _)| a.min(b)).reduce(f64::min)?;
-        let high = self.iter().map(|&(a, b, _)| a.max(b)).reduce(f64::max)?;
+        let low = self.iter().map(|piece| piece.low).reduce(f64::min)?;
+        let high = self.iter().map(|piece| piece.high).reduce(f64::max)?;
         Some(low..high)
     }
 
     /// The signed area left of `border`.
     fn left_of(&self, border: f64) -> f64 {
-        let left = |&(a, b, dy): &(f64, f64, f64)| {
-            let (low, high) = (a.min(b), a.max(b));
-            let mean = if border >= high {
-                f64::midpoint(low, high)
-            } else if border <= low {
-                border
-            } else {
-                border - (border - low) * (border - low) / (2.0 * (high - low))
-            };
-            dy * mean
-        };
-        self.iter().map(left).sum()
+        self.iter().map(|piece| piece.left_of(border)).sum()
     }
 
     /// From where to where a column lies between the edges, so that its share is its width times `height`, signed.
     fn between(&self) -> (Range<f64>, f64) {
         let (mut downwards, mut upwards) = ((f64::MAX, f64::MIN), (f64::MAX, f64::MIN));
         let mut height = 0.0;
-        for &(a, b, dy) in self.iter() {
-            let side = if dy > 0.0 { &mut downwards } else { &mut upwards };
-            *side = (side.0.min(a.min(b)), side.1.max(a.max(b)));
-            height += dy.max(0.0);
+        for piece in self.iter() {
+            let side = if piece.dy > 0.0 { &mut downwards } else { &mut upwards };
+            *side = (side.0.min(piece.low), side.1.max(piece.high));
+            height += piece.dy.max(0.0);
         }
         if downwards.0 >= upwards.1 {
             (upwards.1..downwards.0, height)
@@ -149,13 +168,15 @@ impl Pieces {
         // The outermost columns may be wider than a texel; those between, from edge to edge, count alike.
         let inner_start = (full.start.ceil() as i64).max(start + 1).min(end);
         let inner_end = (full.end.floor() as i64).min(end - 1).max(inner_start);
-        let shared = |column: i64| {
-            let reach = columns.borders(column);
-            let share = self.left_of(reach.end) - self.left_of(reach.start);
-            texel(column).map(|texel| texel * share)
-        };
-        let inner: DVec4 = (inner_start..inner_end).filter_map(texel).sum();
-        let outer: DVec4 = (start..inner_start).chain(inner_end..end).filter_map(shared).sum();
-        inner * height + outer
+        let mut sum = (inner_start..inner_end).filter_map(texel).sum::<DVec4>() * height;
+        for outer in [start..inner_start, inner_end..end] {
+            let mut left = self.left_of(columns.borders(outer.start).start);
+            for column in outer {
+                let right = self.left_of(columns.borders(column).end);
+                sum += texel(column).map_or(DVec4::ZERO, |texel| texel * (right - left));
+                left = right;
+            }
+        }
+        sum
     }
 }
