@@ -27,5 +27,6 @@ pub mod shading;
 pub mod strength;
 #[path = "../systems/mod.rs"]
 pub mod systems;
+pub mod texture;
 
 pub use error::Error;
