@@ -89,25 +89,35 @@ impl Layout {
     }
 }
 
-/// One associated RGBA a position, in sixteen planes: the positions that lie alike in their block of 4 × 4 share one, so
-/// that a picture of a ray a pixel touches one plane of memory.
-#[derive(Debug)]
-pub struct Planes(pub Vec<Vec<[f32; 4]>>);
+/// The table's entry for a block that has no positions of its own between the lattice's.
+pub const NONE: u32 = u32::MAX;
 
-impl Planes {
-    /// Planes of zeros; memory is taken where something is written.
+/// One associated RGBA a position: every fourth position for all of the picture, and those between in the blocks that
+/// were opened for them, so that memory goes where the rays are.
+#[derive(Debug, Default)]
+pub struct Colors {
+    /// The position (0, 0) of each block, x fastest.
+    pub lattice: Vec<[f32; 4]>,
+    /// The positions of each opened block, at `4 (j mod 4) + (i mod 4)`; the first is unused.
+    pub fine: Vec<[[f32; 4]; POSITIONS * POSITIONS]>,
+}
+
+impl Colors {
+    /// Zeros, and no block opened.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
-        let blocks = layout.blocks().iter().product();
-        Self((0..POSITIONS * POSITIONS).map(|_| vec![[0.0; 4]; blocks]).collect())
+        Self { lattice: vec![[0.0; 4]; layout.blocks().iter().product()], fine: Vec::new() }
     }
 
-    /// The value at a position.
+    /// The value at a position; `opened` tells for each block which of the opened it is, or [`NONE`].
     #[must_use]
     #[inline]
-    pub fn value(&self, layout: &Layout, i: usize, j: usize) -> [f32; 4] {
-        let (plane, block) = layout.place(i, j);
-        self.0[plane][block]
+    pub fn value(&self, layout: &Layout, opened: &[u32], i: usize, j: usize) -> [f32; 4] {
+        let (within, block) = layout.place(i, j);
+        if within == 0 {
+            return self.lattice[block];
+        }
+        self.fine.get(opened[block] as usize).map_or([0.0; 4], |fine| fine[within])
     }
 }
 
@@ -117,7 +127,9 @@ pub struct SampleArray {
     /// Where the positions are.
     pub layout: Layout,
     /// C, linear associated RGBA.
-    pub colors: Planes,
+    pub colors: Colors,
+    /// For each block: its number among the opened blocks, or [`NONE`].
+    pub opened: Vec<u32>,
     /// For each block: bit `4 (j mod 4) + (i mod 4)` is set where a ray was cast.
     pub cast: Vec<u16>,
     /// For each block, which is also the region of 4 × 4 positions from its first on: bit 0 is set if it was split to
@@ -128,6 +140,13 @@ pub struct SampleArray {
 }
 
 impl SampleArray {
+    /// C at a position where a ray was cast.
+    #[must_use]
+    #[inline]
+    pub fn color(&self, i: usize, j: usize) -> [f32; 4] {
+        self.colors.value(&self.layout, &self.opened, i, j)
+    }
+
     /// Whether a ray was cast at a position.
     #[must_use]
     #[inline]
@@ -152,6 +171,6 @@ impl SampleArray {
     #[must_use]
     pub fn most_bytes(layout: &Layout) -> u64 {
         let blocks: usize = layout.blocks().iter().product();
-        blocks as u64 * (POSITIONS * POSITIONS * 16 + 2 + 1) as u64
+        blocks as u64 * (16 + POSITIONS * POSITIONS * 16 + 4 + 2 + 1) as u64
     }
 }

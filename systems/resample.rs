@@ -86,7 +86,7 @@ impl Lattice {
 }
 
 fn cast_color(array: &SampleArray, i: usize, j: usize) -> Vec4 {
-    Vec4::from_array(array.colors.value(&array.layout, i, j))
+    Vec4::from_array(array.color(i, j))
 }
 
 /// The colour of a position of the lattice of `step` positions: cast there, or interpolated from the next coarser

@@ -5,15 +5,14 @@
 //! level, over bands of beams: which regions split is decided from the level before alone, so that the picture does not
 //! depend on bands or threads.
 
-use std::slice::ChunksMut;
-
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::beams::{Beams, SIDE};
+use super::band::{Band, cut};
+use super::beams::Beams;
 use crate::components::Sampling;
 use crate::error::Error;
-use crate::samples::{Counts, Layout, POSITIONS, Planes, SampleArray};
+use crate::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
 use crate::schedule::Watch;
 
 /// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
@@ -68,13 +67,13 @@ impl Outlines {
 /// The sample array while it is refined.
 pub struct Refinement<'a, C> {
     layout: Layout,
-    beams: Beams,
     sampling: &'a Sampling,
     outlines: Option<&'a Outlines>,
     caster: &'a C,
-    full: Planes,
+    full: Colors,
     /// C_A and C_G, where polygons may ask for supersampling.
-    edges: Option<[Planes; 2]>,
+    edges: Option<[Colors; 2]>,
+    opened: Vec<u32>,
     cast: Vec<u16>,
     counts: Counts,
 }
@@ -90,14 +89,20 @@ impl Level {
     fn split(&self, x: usize, y: usize) -> bool {
         self.split[y * self.across + x]
     }
-}
 
-/// The part of the planes that one band of beams owns.
-struct Band<'b> {
-    full: Vec<&'b mut [[f32; 4]]>,
-    edges: Option<[Vec<&'b mut [[f32; 4]]>; 2]>,
-    cast: &'b mut [u16],
-    counts: Counts,
+    /// Whether the position `(a, b)` of the lattice twice as fine is new and a corner of a split region's child.
+    fn asks(&self, a: usize, b: usize) -> bool {
+        let (x, y) = (a / 2, b / 2);
+        let split = |x: usize, y: usize| {
+            x < self.across && y * self.across < self.split.len() && self.split(x, y)
+        };
+        match (a % 2, b % 2) {
+            (1, 1) => split(x, y),
+            (1, 0) => split(x, y) || (y > 0 && split(x, y - 1)),
+            (0, 1) => split(x, y) || (x > 0 && split(x - 1, y)),
+            _ => false,
+        }
+    }
 }
 
 impl<'a, C: Caster> Refinement<'a, C> {
@@ -110,16 +115,17 @@ impl<'a, C: Caster> Refinement<'a, C> {
         caster: &'a C,
     ) -> Self {
         let below_a_pixel = polygons && sampling.finest < POSITIONS as u32;
-        let supersampled = below_a_pixel && sampling.coarsest as usize > sampling.finest as usize;
+        let supersampled = below_a_pixel && sampling.coarsest > sampling.finest;
+        let blocks = layout.blocks().iter().product();
         Self {
             layout,
-            beams: Beams::new(layout),
             sampling,
             outlines,
             caster,
-            full: Planes::new(&layout),
-            edges: supersampled.then(|| [Planes::new(&layout), Planes::new(&layout)]),
-            cast: vec![0; layout.blocks().iter().product()],
+            full: Colors::new(&layout),
+            edges: supersampled.then(|| [Colors::new(&layout), Colors::new(&layout)]),
+            opened: vec![NONE; blocks],
+            cast: vec![0; blocks],
             counts: Counts::default(),
         }
     }
@@ -130,6 +136,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let mut splits = vec![0_u8; self.cast.len()];
         if self.layout.coarsest < POSITIONS {
             splits.fill(if self.layout.coarsest == 1 { 0b1_1111 } else { 1 });
+            self.open(|_, _| true);
         }
         self.cast_where(self.layout.coarsest, |_, _| true, watch)?;
         let mut parent: Option<Level> = None;
@@ -137,12 +144,38 @@ impl<'a, C: Caster> Refinement<'a, C> {
         while side > finest && (side > POSITIONS || self.edges.is_some()) {
             let level = self.decide(side, parent.as_ref());
             note(&mut splits, &level, self.layout.blocks()[0]);
-            self.cast_split(&level, watch)?;
+            if side == POSITIONS {
+                // The new positions on a region's right and lower edges are its neighbours'.
+                let split = |x: usize, y: usize| {
+                    x < level.across && y * level.across < level.split.len() && level.split(x, y)
+                };
+                self.open(|x, y| {
+                    split(x, y) || (x > 0 && split(x - 1, y)) || (y > 0 && split(x, y - 1))
+                });
+            }
+            self.cast_where(side / 2, |a, b| level.asks(a, b), watch)?;
             parent = Some(level);
             side /= 2;
         }
-        let Self { layout, full, cast, counts, .. } = self;
-        Ok(SampleArray { layout, colors: full, cast, splits, counts })
+        let Self { layout, full, opened, cast, counts, .. } = self;
+        Ok(SampleArray { layout, colors: full, opened, cast, splits, counts })
+    }
+
+    /// Opens the blocks that are to have positions of their own.
+    fn open(&mut self, wanted: impl Fn(usize, usize) -> bool) {
+        let across = self.layout.blocks()[0];
+        let mut count = 0;
+        for (at, opened) in self.opened.iter_mut().enumerate() {
+            if wanted(at % across, at / across) {
+                *opened = count;
+                count += 1;
+            }
+        }
+        let blocks = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
+        for colors in self.edges.iter_mut().flatten() {
+            colors.fine.clone_from(&blocks);
+        }
+        self.full.fine = blocks;
     }
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
@@ -150,9 +183,14 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let [across, down] = self.layout.regions.map(|n| n * self.layout.coarsest / side);
         let mut split = vec![false; across * down];
         split.par_chunks_mut(across).enumerate().for_each(|(y, row)| {
-            for (x, split) in row.iter_mut().enumerate() {
-                *split = parent.is_none_or(|p| p.split(x / 2, y / 2))
-                    && self.differs(x * side, y * side, side);
+            for (x, children) in row.chunks_mut(if parent.is_some() { 2 } else { 1 }).enumerate() {
+                if parent.is_some_and(|parent| !parent.split(x, y / 2)) {
+                    continue;
+                }
+                let first = if parent.is_some() { 2 * x } else { x };
+                for (x, split) in (first..).zip(children) {
+                    *split = self.differs(x * side, y * side, side);
+                }
             }
         });
         Level { side, across, split }
@@ -161,7 +199,9 @@ impl<'a, C: Caster> Refinement<'a, C> {
     /// Whether the corners of a region differ by more than is tolerated.
     fn differs(&self, i: usize, j: usize, side: usize) -> bool {
         let corners = [(i, j), (i + side, j), (i, j + side), (i + side, j + side)];
-        let range = |planes: &Planes| range(corners.map(|(i, j)| planes.value(&self.layout, i, j)));
+        let range = |colors: &Colors| {
+            range(corners.map(|(i, j)| colors.value(&self.layout, &self.opened, i, j)))
+        };
         if side > POSITIONS {
             let tolerance = self.sampling.tolerance;
             return tolerance <= 0.0
@@ -171,27 +211,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let tolerance = self.sampling.edge_tolerance;
         self.edges
             .as_ref()
-            .is_some_and(|edges| edges.iter().all(|planes| range(planes) > tolerance))
-    }
-
-    /// Casts the five new positions of every split region; one that two regions share is cast once.
-    fn cast_split(&mut self, level: &Level, watch: &Watch) -> Result<(), Error> {
-        let half = level.side / 2;
-        let (across, down) = (level.across, level.split.len() / level.across);
-        let asks = |x: Option<usize>, y: Option<usize>| {
-            x.zip(y).is_some_and(|(x, y)| x < across && y < down && level.split(x, y))
-        };
-        let wanted = |i: usize, j: usize| {
-            let (a, b) = (i / half, j / half);
-            let (x, y) = (Some(a / 2), Some(b / 2));
-            match (a % 2, b % 2) {
-                (1, 1) => asks(x, y),
-                (1, 0) => asks(x, y) || asks(x, (b / 2).checked_sub(1)),
-                (0, 1) => asks(x, y) || asks((a / 2).checked_sub(1), y),
-                _ => false,
-            }
-        };
-        self.cast_where(half, wanted, watch)
+            .is_some_and(|edges| edges.iter().all(|colors| range(colors) > tolerance))
     }
 
     /// Casts a ray at every position of the lattice of `step` positions that is `wanted`, band by band.
@@ -201,18 +221,18 @@ impl<'a, C: Caster> Refinement<'a, C> {
         wanted: impl Fn(usize, usize) -> bool + Sync,
         watch: &Watch,
     ) -> Result<(), Error> {
-        let (beams, caster) = (self.beams, self.caster);
-        let mut bands = self.bands();
+        let (beams, caster) = (Beams::new(self.layout), self.caster);
+        let colors = std::iter::once(&mut self.full).chain(self.edges.iter_mut().flatten());
+        let mut bands = cut(&beams, colors.collect(), &self.opened, &mut self.cast);
         watch.expect(bands.len() as u64);
         let span = tracing::Span::current();
         let counts: Vec<Counts> = bands
             .par_iter_mut()
-            .enumerate()
-            .map(|(number, band)| {
+            .map(|band| {
                 let _inside = span.enter();
-                let _beam_row = tracing::trace_span!("band", number).entered();
+                let _row_of_beams = tracing::trace_span!("band", number = band.number).entered();
                 watch.check()?;
-                band.cast(&beams, number, step, &wanted, caster);
+                cast_band(band, &beams, step, &wanted, caster);
                 watch.advance();
                 Ok(band.counts)
             })
@@ -222,72 +242,28 @@ impl<'a, C: Caster> Refinement<'a, C> {
         }
         Ok(())
     }
-
-    /// Cuts the planes into rows of beams.
-    fn bands(&mut self) -> Vec<Band<'_>> {
-        let rows = SIDE / POSITIONS * self.layout.blocks()[0];
-        let mut full = cut(&mut self.full, rows);
-        let mut edges =
-            self.edges.as_mut().map(|edges| edges.each_mut().map(|planes| cut(planes, rows)));
-        self.cast
-            .chunks_mut(rows)
-            .map(|cast| Band {
-                full: take(&mut full),
-                edges: edges.as_mut().map(|edges| edges.each_mut().map(|chunks| take(chunks))),
-                cast,
-                counts: Counts::default(),
-            })
-            .collect()
-    }
 }
 
-impl Band<'_> {
-    fn cast<C: Caster>(
-        &mut self,
-        beams: &Beams,
-        number: usize,
-        step: usize,
-        wanted: &impl Fn(usize, usize) -> bool,
-        caster: &C,
-    ) {
-        let mut scratch = C::Scratch::default();
-        let layout = &beams.layout;
-        let [across, down] = layout.positions();
-        let lattice = |first: usize, count: usize| {
-            (first.next_multiple_of(step)..(first + SIDE).min(count)).step_by(step)
-        };
-        for x in 0..beams.counts[0] {
-            for j in lattice(number * SIDE, down) {
-                for i in lattice(x * SIDE, across).filter(|&i| wanted(i, j)) {
-                    let window = DVec2::new(layout.window(i), layout.window(j));
-                    let beam = number * beams.counts[0] + x;
-                    let ray = caster.cast(beam, window, &mut scratch, &mut self.counts);
-                    self.counts.rays += 1;
-                    self.write(layout, i, j - number * SIDE, &ray);
-                }
+/// Casts the wanted rays of a band, beam by beam.
+fn cast_band<C: Caster>(
+    band: &mut Band<'_>,
+    beams: &Beams,
+    step: usize,
+    wanted: &impl Fn(usize, usize) -> bool,
+    caster: &C,
+) {
+    let mut scratch = C::Scratch::default();
+    let shift = step.trailing_zeros();
+    for x in 0..beams.counts[0] {
+        let beam = band.number * beams.counts[0] + x;
+        for [i, j] in band.positions(&beams.layout, x, step) {
+            if wanted(i >> shift, j >> shift) {
+                let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
+                let ray = caster.cast(beam, window, &mut scratch, &mut band.counts);
+                band.write(&beams.layout, i, j, &ray);
             }
         }
     }
-
-    fn write(&mut self, layout: &Layout, i: usize, j: usize, ray: &Ray) {
-        let (plane, block) = layout.place(i, j);
-        self.full[plane][block] = ray.full;
-        if let Some([attenuated, geometric]) = &mut self.edges {
-            attenuated[plane][block] = ray.attenuated;
-            geometric[plane][block] = ray.geometric;
-        }
-        self.cast[block] |= 1 << plane;
-    }
-}
-
-/// The rows of every plane, `blocks` at a time.
-fn cut(planes: &mut Planes, blocks: usize) -> Vec<ChunksMut<'_, [f32; 4]>> {
-    planes.0.iter_mut().map(|plane| plane.chunks_mut(blocks)).collect()
-}
-
-/// The next rows of every plane.
-fn take<'b>(chunks: &mut [ChunksMut<'b, [f32; 4]>]) -> Vec<&'b mut [[f32; 4]]> {
-    chunks.iter_mut().filter_map(Iterator::next).collect()
 }
 
 /// The greatest range of any channel over four corners.

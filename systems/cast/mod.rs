@@ -5,6 +5,7 @@
 //! `polygons` says what it meets.
 
 mod adaptive;
+mod band;
 mod beams;
 mod march;
 mod polygons;
