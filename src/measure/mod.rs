@@ -4,3 +4,4 @@ pub mod error;
 pub mod histogram;
 pub mod sigma;
 mod ssim;
+mod isovalues;
