@@ -56,7 +56,8 @@ impl Cut {
     pub fn factor(&self, voxel: [usize; 3]) -> f32 {
         let voxel = DVec3::from(voxel.map(|n| n as f64));
         let inside = self.clip.distance(self.index_to_world.transform_point3(voxel));
-        (inside / self.width + 0.5).max(0.0).min(1.0) as f32
+        // The distance is no NaN: a plane or box that is one cuts nothing.
+        (inside / self.width + 0.5).clamp(0.0, 1.0) as f32
     }
 }
 

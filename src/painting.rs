@@ -49,7 +49,7 @@ impl Paint for [u16; 4] {
 
 impl Paint for [f32; 4] {
     fn opacity(self) -> f32 {
-        self[3].max(0.0).min(1.0)
+        if self[3] > 0.0 { self[3].min(1.0) } else { 0.0 }
     }
     fn color(self) -> Vec3 {
         let [r, g, b, _] = self.map(|c| if c.is_finite() { c.max(0.0) } else { 0.0 });

@@ -118,7 +118,9 @@ impl Inputs {
                 let holds = |brick| painting.holds(brick);
                 let fill = |first, row: &mut [Vec4]| {
                     painting.row(first, row);
-                    row.iter_mut().for_each(|v| *v = (v.truncate() * v.w).extend(v.w));
+                    for voxel in row {
+                        *voxel = (voxel.truncate() * voxel.w).extend(voxel.w);
+                    }
                 };
                 Gel { lit: GelBricks::make(self.texel, grid.size, holds, fill), ambient: None }
             }

@@ -78,8 +78,7 @@ impl Classifier {
             How::Transfer(transfer) => transfer.opacity(f, gradient),
             How::Mixture(mixture) => mixture.opacity(f),
         };
-        // A NaN becomes 0 here too: `max` prefers the number.
-        alpha.max(0.0).min(1.0) as f32
+        fraction(alpha) as f32
     }
 
     /// c_p, linear, of a voxel of scalar `value` and world `gradient`.
@@ -117,7 +116,13 @@ fn square(gradient: [f32; 3]) -> f64 {
 
 /// A stated opacity or probability within 0..=1; 0 for a NaN.
 fn opacity_in_range(stated: f32) -> f64 {
-    f64::from(stated).max(0.0).min(1.0)
+    fraction(f64::from(stated))
+}
+
+/// The nearest number in 0..=1; 0 for a NaN.
+#[inline]
+fn fraction(number: f64) -> f64 {
+    if number > 0.0 { number.min(1.0) } else { 0.0 }
 }
 
 /// The mean of some colours, each by its weight; `None` if the weights sum to 0.
