@@ -48,7 +48,7 @@ mod tests {
         let grid = Grid::axis_aligned([2; 3], [1.0; 3], [0.0; 3]).unwrap();
         let scalars = Scalars::U8(Shared::new(vec![0; 8]));
         world.spawn((grid, scalars.clone()));
-        let tissue = world.spawn((grid, scalars, Classify::default(), OpacityUnit(1.0)));
+        let tissue = world.spawn((grid, scalars, Classify::<f32>::default(), OpacityUnit(1.0)));
         let paint = world.spawn((grid, Painted::U8(Shared::new(vec![[0; 4]; 8]))));
         let entities = |seen: Vec<Seen>| seen.iter().map(|seen| seen.entity).collect::<Vec<_>>();
         assert_eq!(entities(classified(&world)), [tissue]);

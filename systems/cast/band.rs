@@ -49,7 +49,7 @@ pub fn cut<'b>(
     bands
 }
 
-impl<'b> Part<'b> {
+impl Part<'_> {
     /// Takes the first blocks off.
     fn take(&mut self, lattice: usize, fine: usize) -> Self {
         Part {
