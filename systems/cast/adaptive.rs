@@ -9,7 +9,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::band::{Band, cut};
-use super::beams::Beams;
+use super::beams::{Beams, SIDE};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
@@ -171,11 +171,9 @@ impl<'a, C: Caster> Refinement<'a, C> {
                 count += 1;
             }
         }
-        let blocks = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
-        for colors in self.edges.iter_mut().flatten() {
-            colors.fine.clone_from(&blocks);
+        for colors in std::iter::once(&mut self.full).chain(self.edges.iter_mut().flatten()) {
+            colors.fine = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
         }
-        self.full.fine = blocks;
     }
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
@@ -253,15 +251,15 @@ fn cast_band<C: Caster>(
     caster: &C,
 ) {
     let mut scratch = C::Scratch::default();
+    let mut positions = Vec::with_capacity(SIDE * SIDE);
     let shift = step.trailing_zeros();
     for x in 0..beams.counts[0] {
         let beam = band.number * beams.counts[0] + x;
-        for [i, j] in band.positions(&beams.layout, x, step) {
-            if wanted(i >> shift, j >> shift) {
-                let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
-                let ray = caster.cast(beam, window, &mut scratch, &mut band.counts);
-                band.write(&beams.layout, i, j, &ray);
-            }
+        band.positions(&beams.layout, x, step, &mut positions);
+        for &[i, j] in positions.iter().filter(|[i, j]| wanted(i >> shift, j >> shift)) {
+            let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
+            let ray = caster.cast(beam, window, &mut scratch, &mut band.counts);
+            band.write(&beams.layout, i, j, &ray);
         }
     }
 }

@@ -184,8 +184,9 @@ impl<'a> Rays<'a> {
         let ratio = if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio };
         let pyramid = medium.pyramid.as_ref();
         let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue };
-        let occupied =
-            pyramid.map(|_| Beams::new(layout).occupied(gel, &medium.grid, self.camera, distance));
+        let occupied = pyramid.map(|pyramid| {
+            Beams::new(layout).occupied(gel, pyramid, &medium.grid, self.camera, distance)
+        });
         self.refine(inputs, layout, Some((volume, occupied)), watch)
     }
 

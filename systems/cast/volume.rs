@@ -86,31 +86,20 @@ impl Cursor {
 }
 
 impl<T: Texel> Volume<'_, T> {
-    /// Goes on to the next sample before number `until` that lies in an interesting cell, and takes it: its depth's
-    /// number, and associated colour and opacity per opacity unit. The cursor stays on it.
+    /// Goes on to the next sample before number `until` that lies in an interesting cell, and takes it: associated colour
+    /// and opacity per opacity unit. The cursor stays on it.
     #[inline]
     pub fn next(&self, cursor: &mut Cursor, until: i64, counts: &mut Counts) -> Option<Vec4> {
-        let counts_of_bricks = self.gel.counts();
         let until = until.min(cursor.end);
+        let (table, [across, down, _]) = (self.gel.table(), self.gel.counts());
         while cursor.k < until {
             let cell = cursor.cell();
             let brick = cell.map(|c| c / CELLS);
-            let entry =
-                (brick[2] * counts_of_bricks[1] + brick[1]) * counts_of_bricks[0] + brick[0];
-            let stored = self.gel.table()[entry];
-            let empty = match self.pyramid {
-                Some(pyramid) if stored == EMPTY => Some(pyramid.empty_level(entry)),
-                Some(pyramid) => {
-                    let cells = pyramid.cells(stored);
-                    let bit =
-                        cells[cell[2] % CELLS] >> ((cell[1] % CELLS) * CELLS + cell[0] % CELLS) & 1;
-                    (bit == 0).then(|| empty_level_within(cells, cell))
-                }
-                None => None,
-            };
-            if let Some(level) = empty {
+            let entry = (brick[2] * down + brick[1]) * across + brick[0];
+            let stored = table[entry];
+            if let Some(level) = self.empty_level(entry, stored, cell) {
                 counts.cells_skipped += 1;
-                cursor.advance(&self.walk, self.leap(cursor, cell, level));
+                cursor.advance(&self.walk, self.leap(cursor, level));
                 continue;
             }
             counts.samples += 1;
@@ -120,6 +109,18 @@ impl<T: Texel> Volume<'_, T> {
             cursor.advance(&self.walk, 1);
         }
         None
+    }
+
+    /// The highest level of the pyramid whose cell around `cell` is known to be empty, if its level-0 cell is.
+    #[inline]
+    fn empty_level(&self, entry: usize, stored: u32, cell: [usize; 3]) -> Option<u32> {
+        let pyramid = self.pyramid?;
+        if stored == EMPTY {
+            return Some(pyramid.empty_level(entry));
+        }
+        let cells = pyramid.cells(stored);
+        let bit = cells[cell[2] % CELLS] >> ((cell[1] % CELLS) * CELLS + cell[0] % CELLS) & 1;
+        (bit == 0).then(|| empty_level_within(cells, cell))
     }
 
     /// The sample under the cursor; with a cue, both parts of its colour together.
@@ -133,23 +134,18 @@ impl<T: Texel> Volume<'_, T> {
         (sample.truncate() * factor + ambient).extend(sample.w)
     }
 
-    /// How many samples on the first one beyond the pyramid's cell of `level` around `cell` is: at least 1, and never
-    /// past a sample outside the cell.
+    /// How many samples on the first one beyond the pyramid's cell of `level` around the cursor is: at least 1, and never
+    /// past a sample outside that cell.
     #[inline]
-    fn leap(&self, cursor: &Cursor, cell: [usize; 3], level: u32) -> i64 {
-        let mut inside = f64::INFINITY;
-        for axis in [0, 1, 2] {
-            let step = self.walk.step[axis];
-            let low = ((cell[axis] >> level) << level) as i64;
-            let room = if step > 0 {
-                ((low + (1 << level)) << FRACTION_BITS) - 1 - cursor.at[axis]
-            } else {
-                cursor.at[axis] - (low << FRACTION_BITS)
-            };
-            inside = inside.min(room as f64 * self.walk.per_step[axis]);
-        }
-        // `inside` is infinite only if the rays stand still, which `Walk::new` refuses.
-        inside as i64 + 1
+    fn leap(&self, cursor: &Cursor, level: u32) -> i64 {
+        // Cells are aligned: the bits under `mask` are the place in the cell, whose complement is the room ahead.
+        let mask = (1_i64 << (level + FRACTION_BITS)) - 1;
+        let room = |axis: usize| {
+            let ahead = (cursor.at[axis] ^ !(self.walk.step[axis] >> 63)) & mask;
+            ahead as f64 * self.walk.per_step[axis]
+        };
+        // Infinite along all axes only if the rays stand still, which `Walk::new` refuses.
+        room(0).min(room(1)).min(room(2)) as i64 + 1
     }
 
     /// Composites the gel of the slabs before number `until`, unless the ray is opaque to `stop` before.
