@@ -3,6 +3,7 @@
 pub mod bricks;
 pub mod components;
 pub mod composite;
+pub mod coverage;
 pub mod error;
 pub mod face;
 pub mod formats;

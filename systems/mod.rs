@@ -1,5 +1,8 @@
 //! The systems: a stage of the paper's figures 1, 4 and 5 per file, and the one table of jobs.
 
+pub mod matte;
+pub mod scan_convert;
+
 use crate::schedule::Job;
 
 /// Every job, in any order: the schedule derives it.

@@ -1,0 +1,160 @@
+//! 3D scan-conversion of polygons with analytic anti-aliasing: shaded, filtered, sampled (paper §3, figure 4).
+
+use glam::{DVec3, Vec3};
+use hecs::{Entity, World};
+use rayon::prelude::*;
+
+use crate::bricks::VOXELS;
+use crate::components::{DepthCue, Name, OpacityUnit, Order, Surface, View, Voxelize};
+use crate::coverage::{Ball, Covered, Flat};
+use crate::error::Error;
+use crate::face::{Extent, Face, Faces};
+use crate::grid::Grid;
+use crate::products::{Coverage, Layer, LitColors};
+use crate::ray::Camera;
+use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::shading::{Lamps, Reflectance, depends_on_view};
+
+/// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the scene's volume.
+pub struct ScanConvert;
+
+/// What a coverage is made from.
+#[derive(Clone, PartialEq)]
+struct Inputs {
+    faces: Faces,
+    surface: Surface,
+    calibrated: bool,
+    grid: Grid,
+    unit: f64,
+    lamps: Lamps,
+    /// Whether ambient light is kept apart, for a depth cue.
+    ambient_apart: bool,
+}
+
+impl System for ScanConvert {
+    type Product = Coverage;
+    const NAME: &'static str = "scan_convert";
+    const READS: &'static [Kind] = &[
+        Kind::Name,
+        Kind::Order,
+        Kind::Faces,
+        Kind::Surface,
+        Kind::Voxelize,
+        Kind::Grid,
+        Kind::OpacityUnit,
+        Kind::Light,
+        Kind::CastsShadow,
+        Kind::View,
+        Kind::DepthCue,
+    ];
+
+    fn run(world: &World, out: &mut Outbox<'_, Coverage>) -> Result<(), Error> {
+        let volume = volume(world);
+        let ambient_apart = world.query::<&DepthCue>().iter().next().is_some();
+        let mut query = world.query::<(Entity, &Faces, &Surface, &Voxelize, Option<&Name>)>();
+        for (entity, faces, surface, voxelize, name) in &mut query {
+            out.watch().check()?;
+            let name = name.map_or("polygon", |name| &name.0);
+            let Some((grid, unit)) = volume else {
+                let problem = "`voxelize` puts it into a volume and the scene has none; state a `volume` or take `voxelize` off";
+                return Err(Error::entity(name, problem));
+            };
+            let lamps = lamps(world, surface);
+            let (faces, surface, calibrated) =
+                (faces.clone(), surface.clone(), voxelize.calibrated);
+            let inputs = Inputs { faces, surface, calibrated, grid, unit, lamps, ambient_apart };
+            out.derive(entity, inputs, |inputs| {
+                let _inside = tracing::trace_span!("polygon", name).entered();
+                inputs.convert().map_err(|problem| Error::entity(name, problem))
+            })?;
+        }
+        Ok(())
+    }
+
+    fn plan(world: &World) -> Plan {
+        let Some((grid, _)) = volume(world) else {
+            return Plan::absent("no volume to scan-convert polygons into");
+        };
+        let apart = usize::from(world.query::<&DepthCue>().iter().next().is_some());
+        let colors = 1 + apart + Lamps::of(world, DVec3::ZERO).shadowed.len();
+        let brick = (VOXELS * (size_of::<f32>() + colors * size_of::<[f32; 3]>())) as u64;
+        let table = grid.size.iter().map(|n| n.div_ceil(8) as u64).product::<u64>();
+        let mut query = world.query::<(Entity, &Faces, &Voxelize)>().with::<&Surface>();
+        let makes: Vec<_> = query
+            .iter()
+            .map(|(entity, faces, _)| {
+                let flats = faces.0.par_iter().filter_map(|face| Flat::new(face, &grid));
+                // The calibrated ball reaches farthest. A brick near several faces is stored once.
+                let bricks =
+                    flats.map(|flat| flat.bricks(1.5, grid.size).len() as u64).sum::<u64>();
+                (entity, bricks.min(table) * brick + table * 4 * (1 + colors as u64))
+            })
+            .collect();
+        if makes.is_empty() {
+            return Plan::absent("no polygon carries `voxelize`");
+        }
+        Plan { makes, why: "`voxelize`" }
+    }
+}
+
+/// The grid and the opacity unit of the scene's first volume; the unit is the smallest spacing where none is stated.
+fn volume(world: &World) -> Option<(Grid, f64)> {
+    let mut query = world.query::<(&Grid, Option<&OpacityUnit>, Option<&Order>)>();
+    let first = query.iter().min_by_key(|(_, _, order)| order.copied())?;
+    Some((*first.0, first.1.map_or_else(|| first.0.spacing().min_element(), |unit| unit.0)))
+}
+
+/// The lights as they fall on a surface; the same for every view where the view does not matter.
+fn lamps(world: &World, surface: &Surface) -> Lamps {
+    let mut observer = DVec3::ZERO;
+    if depends_on_view(world, &Reflectance::from(surface)) {
+        let mut views = world.query::<(&View, Option<&Order>)>();
+        let first = views.iter().min_by_key(|(_, order)| order.copied());
+        let view = first.map_or_else(View::default, |(view, _)| view.clone());
+        // Where the observer stands depends on the angles alone.
+        observer = -Camera::new(&view, &Extent { low: DVec3::ZERO, high: DVec3::ONE }).forward;
+    }
+    Lamps::of(world, observer)
+}
+
+impl Inputs {
+    fn convert(&self) -> Result<Coverage, String> {
+        let faces = &self.faces.0;
+        let flats: Option<Vec<Flat>> =
+            faces.par_iter().map(|face| Flat::new(face, &self.grid)).collect();
+        let flats = flats.ok_or(
+            "a vertex is more than 1e100 voxels away from the volume; state vertices in the world's units",
+        )?;
+        let opacity = f64::from(self.surface.opacity);
+        let ball = if self.calibrated {
+            Ball::calibrated(opacity, self.unit, &self.grid, &flats)
+        } else {
+            Ball::printed(opacity)
+        };
+        let covered = Covered::new(faces, &flats, &ball, self.grid.size);
+        let (opacity, colors) = rayon::join(|| covered.opacity(), || self.colors(&covered));
+        Ok(Coverage(Layer { opacity, colors }))
+    }
+
+    /// The colours: directional lights shade a face alike all over, so it is shaded once.
+    fn colors(&self, covered: &Covered) -> LitColors {
+        let how = Reflectance::from(&self.surface);
+        let color = self.surface.color.0;
+        let ambient = color * how.ambient;
+        let bricks = |of_face: &(dyn Fn(Vec3) -> Vec3 + Sync)| {
+            let shade = |face: &Face| of_face(face.normal.as_vec3());
+            covered.colors(&self.faces.0.iter().map(shade).collect::<Vec<_>>())
+        };
+        let in_base = if self.ambient_apart { Vec3::ZERO } else { ambient };
+        let plain = &self.lamps.plain;
+        let base = bricks(&|normal| {
+            plain.iter().fold(in_base, |sum, lamp| sum + lamp.reflected(color, normal, &how))
+        });
+        let shadowed = &self.lamps.shadowed;
+        let shadowed = shadowed
+            .iter()
+            .map(|(_, lamp)| bricks(&|normal| lamp.reflected(color, normal, &how)))
+            .collect();
+        LitColors { base, shadowed, ambient: self.ambient_apart.then(|| bricks(&|_| ambient)) }
+    }
+}
