@@ -10,6 +10,7 @@ pub mod formats;
 pub mod gel;
 pub mod grid;
 pub mod measure;
+pub mod painted;
 pub mod phantom;
 pub mod picture;
 pub mod products;

@@ -5,7 +5,7 @@ use hecs::{Entity, World};
 use rayon::prelude::*;
 
 use crate::bricks::VOXELS;
-use crate::components::{DepthCue, Name, OpacityUnit, Order, Surface, View, Voxelize};
+use crate::components::{DepthCue, Matte, Name, OpacityUnit, Order, Surface, View, Voxelize};
 use crate::coverage::{Ball, Covered, Flat};
 use crate::error::Error;
 use crate::face::{Extent, Face, Faces};
@@ -23,7 +23,8 @@ pub struct ScanConvert;
 struct Inputs {
     faces: Faces,
     surface: Surface,
-    calibrated: bool,
+    /// How; its operator is not looked at, and always the default.
+    voxelize: Voxelize,
     grid: Grid,
     unit: f64,
     lamps: Lamps,
@@ -60,9 +61,10 @@ impl System for ScanConvert {
                 return Err(Error::entity(name, problem));
             };
             let lamps = lamps(world, surface);
-            let (faces, surface, calibrated) =
-                (faces.clone(), surface.clone(), voxelize.calibrated);
-            let inputs = Inputs { faces, surface, calibrated, grid, unit, lamps, ambient_apart };
+            // Another operator makes no other coverage.
+            let voxelize = Voxelize { matte: Matte::default(), ..voxelize.clone() };
+            let (faces, surface) = (faces.clone(), surface.clone());
+            let inputs = Inputs { faces, surface, voxelize, grid, unit, lamps, ambient_apart };
             out.derive(entity, inputs, |inputs| {
                 let _inside = tracing::trace_span!("polygon", name).entered();
                 inputs.convert().map_err(|problem| Error::entity(name, problem))
@@ -125,12 +127,7 @@ impl Inputs {
         let flats = flats.ok_or(
             "a vertex is more than 1e100 voxels away from the volume; state vertices in the world's units",
         )?;
-        let opacity = f64::from(self.surface.opacity);
-        let ball = if self.calibrated {
-            Ball::calibrated(opacity, self.unit, &self.grid, &flats)
-        } else {
-            Ball::printed(opacity)
-        };
+        let ball = Ball::stated(&self.surface, &self.voxelize, self.unit, &self.grid, &flats);
         let covered = Covered::new(faces, &flats, &ball, self.grid.size);
         let (opacity, colors) = rayon::join(|| covered.opacity(), || self.colors(&covered));
         Ok(Coverage(Layer { opacity, colors }))

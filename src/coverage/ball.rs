@@ -11,6 +11,7 @@
 
 use super::calibration::Calibration;
 use super::flat::Flat;
+use crate::components::{Surface, Voxelize};
 use crate::grid::Grid;
 
 /// Up to here optical depth is spread; between here and 1 the layer is lifted to opaque.
@@ -44,6 +45,23 @@ impl Ball {
         let distance = grid.spacing().min_element();
         let calibration = Calibration::new(deepest, unit, distance, [thinnest, thickest]);
         Self { opacity, calibration: Some(calibration) }
+    }
+
+    /// The ball that a polygon of `surface` and `voxelize` states.
+    #[must_use]
+    pub fn stated(
+        surface: &Surface,
+        voxelize: &Voxelize,
+        unit: f64,
+        grid: &Grid,
+        flats: &[Flat],
+    ) -> Self {
+        let opacity = f64::from(surface.opacity);
+        if voxelize.calibrated {
+            Self::calibrated(opacity, unit, grid, flats)
+        } else {
+            Self::printed(opacity)
+        }
     }
 
     /// How far from the plane voxels are touched, voxels.
