@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::bricks::VOXELS;
 use crate::components::{DepthCue, Matte, Name, OpacityUnit, Order, Surface, View, Voxelize};
+use crate::coverage::ball::REACH;
 use crate::coverage::{Ball, Covered, Flat};
 use crate::error::Error;
 use crate::face::{Extent, Face, Faces};
@@ -86,9 +87,9 @@ impl System for ScanConvert {
             .iter()
             .map(|(entity, faces, _)| {
                 let flats = faces.0.par_iter().filter_map(|face| Flat::new(face, &grid));
-                // The calibrated ball reaches farthest. A brick near several faces is stored once.
+                // A brick near several faces is stored once.
                 let bricks =
-                    flats.map(|flat| flat.bricks(1.5, grid.size).len() as u64).sum::<u64>();
+                    flats.map(|flat| flat.bricks(REACH, grid.size).len() as u64).sum::<u64>();
                 (entity, bricks.min(table) * brick + table * 4 * (1 + colors as u64))
             })
             .collect();

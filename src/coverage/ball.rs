@@ -1,10 +1,12 @@
 //! The convolution kernel: a ball of constant weight, and how opaque a voxel gets that it cuts from a polygon (paper §3).
 //!
 //! As printed, the ball has a radius of one voxel and α_G = α_P · coverage. Such a layer lets light through that the
-//! polygon stops: an opaque plane is a tent of opacity, no matter how it is sampled. The calibrated ball reaches 1.5
-//! voxels along the normal. It spreads *optical depth*, τ = −ln(1 − α), for depths add along a ray: a voxel at height h
-//! gets the part w(h) of it, a trapezoid (1/2 up to |h| = 1/2, falling to 0 at 3/2) whose values a voxel apart always sum
-//! to 1. Rays interpolate α instead of τ, which loses a few per cent: `calibration` finds by how much τ has to grow.
+//! polygon stops: an opaque plane is a tent of opacity, no matter how it is sampled. The calibrated ball reaches two voxels
+//! along the normal. It spreads *optical depth*, τ = −ln(1 − α), for depths add along a ray: a voxel at height h gets the
+//! part w(h) = (2 − |h|)/4 of it, whose values a voxel apart always sum to 1. A narrower tent is not told from its
+//! neighbours well enough by tri-linear interpolation: planes aslant in the grid would ripple (a trapezoid that reaches 3/2
+//! was measured at 1.5 times the ripple). Rays interpolate α instead of τ, which loses a few per cent: `calibration`
+//! finds by how much τ has to grow.
 //!
 //! Towards opaque polygons (α over 0.99) the layer is lifted until, at α = 1, every voxel within one voxel of the plane
 //! is opaque: then α = 1 over the whole width between two planes of voxels and no sample distance up to a voxel misses it.
@@ -14,6 +16,8 @@ use super::flat::Flat;
 use crate::components::{Surface, Voxelize};
 use crate::grid::Grid;
 
+/// How far the calibrated ball reaches along the normal, voxels; no ball reaches farther.
+pub const REACH: f64 = 2.0;
 /// Up to here optical depth is spread; between here and 1 the layer is lifted to opaque.
 const TRANSLUCENT: f64 = 0.99;
 
@@ -67,7 +71,7 @@ impl Ball {
     /// How far from the plane voxels are touched, voxels.
     #[must_use]
     pub fn reach(&self) -> f64 {
-        if self.calibration.is_some() { 1.5 } else { 1.0 }
+        if self.calibration.is_some() { REACH } else { 1.0 }
     }
 
     /// ρ, the radius of the disc that a plane at `height` voxels cuts, voxels; 1 at the centre, 0 from the reach on.
@@ -84,7 +88,7 @@ impl Ball {
     pub fn weight(&self, height: f64) -> f64 {
         match self.calibration {
             None => (1.0 - height * height).max(0.0),
-            Some(_) => 2.0 * trapezoid(height),
+            Some(_) => 2.0 * tent(height),
         }
     }
 
@@ -164,12 +168,12 @@ fn in_range(opacity: f64) -> f64 {
 
 /// α of a voxel that gets its part of an optical depth.
 fn layered(depth: f64, height: f64) -> f64 {
-    -libm::expm1(-depth * trapezoid(height))
+    -libm::expm1(-depth * tent(height))
 }
 
 /// w(h): the part of the optical depth that a voxel `height` voxels from the plane gets. Sums to 1 over voxels in a row.
-pub(super) fn trapezoid(height: f64) -> f64 {
-    (1.5 - height.abs()).clamp(0.0, 1.0) / 2.0
+pub(super) fn tent(height: f64) -> f64 {
+    (REACH - height.abs()).max(0.0) / (REACH * REACH)
 }
 
 #[cfg(test)]
@@ -203,21 +207,20 @@ mod tests {
     }
 
     #[test]
-    fn trapezoids_a_voxel_apart_sum_to_one_at_every_phase() {
+    fn tents_two_voxels_wide_sum_to_one_at_every_phase() {
         for phase in 0..=64 {
-            let sum: f64 =
-                (-3..=3).map(|n| trapezoid(f64::from(n) + f64::from(phase) / 64.0)).sum();
+            let sum: f64 = (-3..=3).map(|n| tent(f64::from(n) + f64::from(phase) / 64.0)).sum();
             assert!((sum - 1.0).abs() < 1e-15, "{phase}: {sum}");
         }
     }
 
     #[test]
-    fn an_opaque_polygon_makes_every_voxel_within_one_voxel_opaque_and_none_past_one_and_a_half() {
+    fn an_opaque_polygon_makes_every_voxel_within_one_voxel_opaque_and_none_past_two() {
         let ball = calibrated(1.0);
         for n in 0..=16 {
             assert_eq!(ball.opacity(1.0, f64::from(n) / 16.0, 1.0), 1.0);
         }
-        assert_eq!([ball.opacity(1.0, 1.5, 1.0), ball.opacity(0.0, 0.0, 1.0)], [0.0, 0.0]);
+        assert_eq!([ball.opacity(1.0, 2.0, 1.0), ball.opacity(0.0, 0.0, 1.0)], [0.0, 0.0]);
     }
 
     #[test]

@@ -5,8 +5,14 @@
 //! itself, on the thickness of the voxels against the opacity unit and on the sample distance. So the layer is ray traced
 //! here, once a polygon, in one dimension, over all phases of plane and samples, and the depth is scaled until the mean
 //! opacity is as stated.
+//!
+//! What is left, of planes perpendicular to an axis, seen face-on: the phases spread by at most 2 % of the stated opacity
+//! (8 % to 10 % if the opacity unit is five voxels), and a smaller sample distance moves the mean by less than 0.1 %
+//! (0.2 %). Planes aslant in the grid ripple with the phase, ±6 % at an opacity of 0.1 and ±1.5 % at 0.9, for
+//! tri-linear interpolation does not tell the voxels' own pattern from the plane; their mean is right to 0.5 %. A sample
+//! distance over a voxel may step over an opaque polygon.
 
-use super::ball::trapezoid;
+use super::ball::tent;
 
 /// Depths for which the scale is found: steps between 0 and the polygon's own.
 const DEPTHS: usize = 8;
@@ -86,12 +92,12 @@ fn scales(deepest: f64, ratio: f64, step: f64) -> [f64; DEPTHS + 1] {
 fn gathered(depth: f64, step: f64, ratio: f64) -> f64 {
     let mut opacity = 0.0;
     for plane in 0..PHASES {
-        let above = |voxel: usize| voxel as f64 - 2.0 - f64::from(plane) / f64::from(PHASES);
-        let layer: [f64; 6] = std::array::from_fn(|n| -libm::expm1(-depth * trapezoid(above(n))));
+        let above = |voxel: usize| voxel as f64 - 3.0 - f64::from(plane) / f64::from(PHASES);
+        let layer: [f64; 8] = std::array::from_fn(|n| -libm::expm1(-depth * tent(above(n))));
         for phase in 0..PHASES {
             let mut logarithm = 0.0;
             let mut at = (f64::from(phase) + 0.5) / f64::from(PHASES) * step;
-            while at < 5.0 {
+            while at < 7.0 {
                 let (voxel, between) = (at as usize, at.fract());
                 let alpha = layer[voxel] + (layer[voxel + 1] - layer[voxel]) * between;
                 logarithm += libm::log1p(-alpha.min(1.0));

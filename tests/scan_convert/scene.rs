@@ -1,5 +1,6 @@
 //! Small scenes with polygons to scan-convert, and a tracer that does to their voxels what rays do.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use gelray::Error;
@@ -60,6 +61,26 @@ pub fn rectangle(center: DVec3, normal: DVec3, half: f64) -> Face {
     Face::new(vec![corners.to_vec()]).unwrap()
 }
 
+/// A closed sphere of `2 n · n` planar faces.
+pub fn sphere(center: DVec3, radius: f64, n: u32) -> Vec<Face> {
+    let point = |i: u32, j: u32| {
+        let (i, j) = (f64::from(i) / f64::from(n) * PI, f64::from(j % (2 * n)) / f64::from(n) * PI);
+        center + DVec3::new(i.sin() * j.cos(), i.sin() * j.sin(), i.cos()) * radius
+    };
+    let quad = |(i, j): (u32, u32)| {
+        let corners = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+        // At the poles two corners are one, and rounding may part them by a hair.
+        let mut outline: Vec<DVec3> = Vec::new();
+        for corner in corners {
+            if outline.iter().all(|other| other.distance(corner) > 1e-9 * radius) {
+                outline.push(corner);
+            }
+        }
+        Face::new(vec![outline]).unwrap()
+    };
+    (0..n).flat_map(|i| (0..2 * n).map(move |j| (i, j))).map(quad).collect()
+}
+
 /// The outline with the corners `corners`, in the plane z = `z`.
 pub fn flat(corners: &[(f64, f64)], z: f64) -> Vec<DVec3> {
     corners.iter().map(|&(x, y)| DVec3::new(x, y, z)).collect()
@@ -109,6 +130,7 @@ impl Tracer<'_> {
             let voxel = (cell + upper).to_array().map(|v| v as usize);
             weight.element_product() * f64::from(self.opacity.value(voxel))
         };
-        (0..8).map(corner).sum()
+        // Rounded weights may sum to a hair more than 1.
+        (0..8).map(corner).sum::<f64>().min(1.0)
     }
 }
