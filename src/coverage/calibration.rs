@@ -8,7 +8,7 @@
 //!
 //! What is left, of planes perpendicular to an axis, seen face-on: the phases spread by at most 2 % of the stated opacity
 //! (8 % to 10 % if the opacity unit is five voxels), and a smaller sample distance moves the mean by less than 0.1 %
-//! (0.2 %). Planes aslant in the grid ripple with the phase, ±6 % at an opacity of 0.1 and ±1.5 % at 0.9, for
+//! (0.2 %). Planes aslant in the grid ripple with the phase, by −4 % to +7 % at an opacity of 0.1 and ±2 % at 0.9, for
 //! tri-linear interpolation does not tell the voxels' own pattern from the plane; their mean is right to 0.5 %. A sample
 //! distance over a voxel may step over an opaque polygon.
 

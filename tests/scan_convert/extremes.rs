@@ -4,10 +4,13 @@ use gelray::components::{Color, Matte};
 use gelray::components::{Light, Observer, Order, Surface, Toward, View, Voxelize};
 use gelray::face::Face;
 use gelray::grid::Grid;
-use gelray::products::{Composite, Coverage};
+use gelray::products::{Composite, Coverage, Layer};
+use gelray::schedule::System;
+use gelray::systems::matte::Matte as MatteSystem;
+use gelray::systems::scan_convert::ScanConvert;
 use glam::DVec3;
 
-use crate::scene::{Tracer, add, cover, cube, flat, rectangle, run, total, world};
+use crate::scene::{Tracer, add, composite, cover, cube, flat, rectangle, run, total, world};
 
 #[test]
 fn worlds_scaled_and_moved_get_the_same_voxels() {
@@ -154,4 +157,19 @@ fn a_second_run_makes_nothing_and_a_turn_of_the_view_only_what_depends_on_it() {
     scene.remove_one::<Voxelize>(entity).unwrap();
     assert_eq!(run(&mut scene).unwrap(), [(0, 0), (0, 0)]);
     assert!(scene.query::<&Composite>().iter().next().is_none());
+}
+
+#[test]
+fn a_plan_says_what_will_be_made_and_bounds_its_bytes() {
+    let plans = |scene: &hecs::World| [ScanConvert::plan(scene), MatteSystem::plan(scene)];
+    let mut scene = world(cube(40));
+    assert!(plans(&scene).iter().all(|plan| plan.makes.is_empty()));
+    let entity = add(&mut scene, vec![rectangle(DVec3::splat(20.0), DVec3::ONE, 11.0)], 0.5, true);
+    let plans = plans(&scene);
+    assert!(plans.iter().all(|plan| plan.makes.len() == 1));
+    run(&mut scene).unwrap();
+    let bytes = |layer: &Layer| layer.opacity.bytes() + layer.colors.base.bytes();
+    let covered = bytes(&scene.get::<&Coverage>(entity).unwrap().0);
+    assert!(covered <= plans[0].bytes() && plans[0].bytes() < 2 * covered);
+    assert!(bytes(&composite(&scene).0) <= plans[1].bytes());
 }
