@@ -26,18 +26,23 @@ pub struct Ray {
     pub geometric: [f32; 4],
 }
 
-/// Casts the ray through window position (pixels) in the beam of a number.
+/// Where a ray is cast.
+#[derive(Debug, Clone, Copy)]
+pub struct Aim {
+    /// The number of its beam.
+    pub beam: usize,
+    /// Its window position, pixels.
+    pub window: DVec2,
+    /// The distance to the next ray of its level, in positions: what it stands for.
+    pub step: usize,
+}
+
+/// Casts rays.
 pub trait Caster: Sync {
     /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
     type Scratch: Default;
     /// Casts one ray.
-    fn cast(
-        &self,
-        beam: usize,
-        window: DVec2,
-        scratch: &mut Self::Scratch,
-        counts: &mut Counts,
-    ) -> Ray;
+    fn cast(&self, aim: Aim, scratch: &mut Self::Scratch, counts: &mut Counts) -> Ray;
 }
 
 /// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
@@ -258,7 +263,8 @@ fn cast_band<C: Caster>(
         band.positions(&beams.layout, x, step, &mut positions);
         for &[i, j] in positions.iter().filter(|[i, j]| wanted(i >> shift, j >> shift)) {
             let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
-            let ray = caster.cast(beam, window, &mut scratch, &mut band.counts);
+            let aim = Aim { beam, window, step };
+            let ray = caster.cast(aim, &mut scratch, &mut band.counts);
             band.write(&beams.layout, i, j, &ray);
         }
     }
