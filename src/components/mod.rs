@@ -17,12 +17,12 @@ mod volume;
 pub use classify::{Classify, Contour, Material as ClassifyMaterial, Tissue, TransferPoint};
 pub use clip::Clip;
 pub use color::Color;
-pub use light::{CastsShadow, Light, Observer, Toward};
+pub use light::{CastsShadow, Light, Observer, Shaft, Toward};
 pub use material::{DepthCue, Material};
 pub use mesh::{Ellipsoid, Mesh, Prism};
 pub use polygon::{Matte, Polygon, Surface, Voxelize};
 pub use sampling::{Filter, PixelFilter, Sampling, Skip, TexelKind};
-pub use texture::{Projects, Texture, TextureFilter, Textured, Wrap};
+pub use texture::{ProjectedBy, Projects, Texture, TextureFilter, Textured, Wrap};
 pub use view::View;
 pub use volume::Volume;
 

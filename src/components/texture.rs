@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::picture::Picture;
+
 /// An image that polygons and lights may name: exactly one of `file` or `formula`.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -85,6 +87,15 @@ pub struct Projects {
     /// What lies outside the texture: `vanish` is no light.
     #[serde(default)]
     pub wrap: Wrap,
+}
+
+/// [`Projects`] with the texture that it names at hand: what the scene's loader puts on the light.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProjectedBy {
+    /// As the scene states it.
+    pub projects: Projects,
+    /// The texture: linear, associated RGBA.
+    pub picture: Picture,
 }
 
 fn once() -> [f64; 2] {
