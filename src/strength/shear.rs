@@ -194,10 +194,12 @@ impl Shear {
         before: &impl Fn() -> f64,
     ) -> f64 {
         let (window, [width, height]) = (self.window(slice), self.width());
-        let at = [column[0] - window.low[0] as f64, column[1] - window.low[1] as f64];
-        let low = at.map(f64::floor);
-        let [u, v] = [at[0] - low[0], at[1] - low[1]];
-        let [x, y] = low.map(|l| l as i64);
+        let between = |axis: usize| {
+            let at = column[axis] - window.low[axis] as f64;
+            let low = at.floor();
+            (low as i64, self.hold(axis, window.phase[axis], low, at - low))
+        };
+        let ((x, u), (y, v)) = (between(0), between(1));
         let value = |x: i64, y: i64| match (self.kept(0, x, width), self.kept(1, y, height)) {
             (Some(x), Some(y)) => read(slice, y * width + x),
             _ => before(),
@@ -208,6 +210,21 @@ impl Shear {
         };
         let row_0 = row(y);
         if v > 0.0 { row_0 + v * (row(y + 1) - row_0) } else { row_0 }
+    }
+
+    /// The part of the way from kept column `low` to the next, where the border that light enters through lies between
+    /// them: what the outer of the two holds is so up to the border.
+    #[inline]
+    fn hold(&self, axis: usize, phase: f64, low: f64, part: f64) -> f64 {
+        if phase == 0.0 {
+            part
+        } else if self.slope[axis] > 0.0 && low == 0.0 {
+            ((part - phase) / (1.0 - phase)).max(0.0)
+        } else if self.slope[axis] < 0.0 && low == (self.size[axis] - 1) as f64 {
+            (part / phase).min(1.0)
+        } else {
+            part
+        }
     }
 
     /// The kept column for `at`: the outermost past the side where columns leave, none where they have not entered.

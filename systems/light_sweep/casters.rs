@@ -23,32 +23,25 @@ impl Casters {
 
     /// The opacities of row `y` of slice `slice`: α of everything there, `1 − (1 − α)(1 − α_G)`.
     ///
-    /// `row` has room for whole bricks; `occupied` is set for each brick along it that holds an opacity above 0.
-    /// Returns whether any does. Opacities come out in 0..=1, a NaN as 0.
-    pub fn row(
-        &self,
-        shear: &Shear,
-        (slice, y): (usize, usize),
-        row: &mut [f32],
-        occupied: &mut [bool],
-    ) -> bool {
+    /// `row` has room for whole bricks. Returns whether any opacity is above 0; all are in 0..=1, a NaN is 0.
+    pub fn row(&self, shear: &Shear, (slice, y): (usize, usize), row: &mut [f32]) -> bool {
         row.fill(0.0);
-        occupied.fill(false);
         let strides = shear.axes.map(|axis| EDGE.pow(axis as u32));
         let along = shear.flip(slice);
         let first = (y % EDGE) * strides[1] + (along % EDGE) * strides[2];
+        let mut any = false;
         for bricks in std::iter::once(&self.opacity).chain(&self.polygons) {
-            for (x, (row, occupied)) in row.chunks_exact_mut(EDGE).zip(&mut *occupied).enumerate() {
+            for (x, row) in row.chunks_exact_mut(EDGE).enumerate() {
                 let mut place = [0; 3];
                 for (axis, brick) in shear.axes.into_iter().zip([x, y / EDGE, along / EDGE]) {
                     place[axis] = brick;
                 }
                 if let Some(brick) = bricks.brick(place) {
-                    *occupied |= add(brick, first, strides[0], row);
+                    any |= add(brick, first, strides[0], row);
                 }
             }
         }
-        occupied.contains(&true)
+        any
     }
 }
 

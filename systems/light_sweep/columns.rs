@@ -78,6 +78,7 @@ struct Walk<'a> {
     columns: &'a Columns<'a>,
     casters: &'a Casters,
     slice: usize,
+    phase: [f32; 2],
     /// The kept columns that are in the volume at this slice, and at the one before.
     entered: [Range<usize>; 2],
     came: [Range<usize>; 2],
@@ -85,25 +86,14 @@ struct Walk<'a> {
     shift: [isize; 2],
 }
 
-/// A row of opacities at columns' places, interpolated in the slice.
-struct Opacities {
-    lower: Vec<f32>,
-    upper: Vec<f32>,
-    /// Both interpolated, with one voxel repeated at each end.
-    row: Vec<f32>,
-    occupied: [Vec<bool>; 2],
-}
-
 impl<'a> Walk<'a> {
     fn new(columns: &'a Columns<'a>, slice: usize, casters: &'a Casters) -> Self {
         let shear = &columns.shear;
-        let entered = shear.entered(slice);
-        if slice == 0 {
-            return Self { columns, casters, slice, entered, came: [0..0, 0..0], shift: [0; 2] };
-        }
-        let (low, was) = (shear.window(slice).low, shear.window(slice - 1).low);
-        let shift = [low[0] - was[0], low[1] - was[1]].map(|shift| shift as isize);
-        Self { columns, casters, slice, entered, came: shear.entered(slice - 1), shift }
+        let (window, was) = (shear.window(slice), shear.window(slice.saturating_sub(1)));
+        let phase = window.phase.map(|phase| phase as f32);
+        let came = if slice == 0 { [0..0, 0..0] } else { shear.entered(slice - 1) };
+        let shift = [0, 1].map(|axis| (window.low[axis] - was.low[axis]) as isize);
+        Self { columns, casters, slice, phase, entered: shear.entered(slice), came, shift }
     }
 
     /// Rows of columns from `first` on.
@@ -114,100 +104,149 @@ impl<'a> Walk<'a> {
         let rows = next.chunks_exact_mut(width).zip(strengths.chunks_exact_mut(width));
         for (y, (next, strengths)) in (first..).zip(rows) {
             let any = self.entered[1].contains(&y) && opacities.read(self, y);
-            for (x, (next, strength)) in next.iter_mut().zip(strengths).enumerate() {
-                let (at, leaving) = self.step([x, y], any.then_some(&opacities));
-                (*strength, *next) = (at as f32, leaving);
+            let opacities = any.then_some(&opacities);
+            let (known, arriving) = self.arriving(y);
+            for x in (0..known.start).chain(known.end..width) {
+                let (strength, leaving) = self.enter([x, y], opacities);
+                (strengths[x], next[x]) = (strength as f32, leaving);
             }
+            self.pass(
+                &known,
+                arriving,
+                opacities,
+                (&mut next[known.clone()], &mut strengths[known.clone()]),
+            );
         }
     }
 
-    /// β_0 · T of a column at the slice, and behind the slice's farther half-slab.
-    #[inline]
-    fn step(&self, [x, y]: [usize; 2], opacities: Option<&Opacities>) -> (f64, f64) {
-        let inside = self.entered[0].contains(&x) && self.entered[1].contains(&y);
-        let opacity = match opacities {
-            Some(opacities) if inside => opacities.at(x, self.phase()),
-            _ => 0.0,
+    /// Which columns of a row were in the volume at the slice before and are now, and what left that slice along them.
+    fn arriving(&self, y: usize) -> (Range<usize>, &[f64]) {
+        let none = (0..0, &[] as &[f64]);
+        let above = y.checked_add_signed(self.shift[1]).filter(|y| self.came[1].contains(y));
+        let Some(above) = above.filter(|_| self.entered[1].contains(&y)) else {
+            return none;
         };
-        let arriving = if inside { self.arriving([x, y]) } else { None };
-        match arriving {
-            Some(arriving) if opacity > 0.0 => {
-                let half = 1.0 - thicken(opacity, self.columns.ratio / 2.0);
-                (arriving * half, arriving * half * half)
-            }
-            Some(arriving) => (arriving, arriving),
-            None => self.enter([x, y], opacity),
+        let before = |x: usize| x.saturating_add_signed(-self.shift[0]);
+        let from = before(self.came[0].start).max(self.entered[0].start);
+        let to = before(self.came[0].end).min(self.entered[0].end);
+        if from >= to {
+            return none;
+        }
+        let width = self.columns.shear.width()[0];
+        let first = (above * width + from).saturating_add_signed(self.shift[0]);
+        (from..to, &self.columns.leaving[first..first + (to - from)])
+    }
+
+    /// Attenuates what arrives along the columns of a row: β_0 · T at the slice, and behind its farther half-slab.
+    fn pass(
+        &self,
+        known: &Range<usize>,
+        arriving: &[f64],
+        opacities: Option<&Opacities>,
+        (next, strengths): (&mut [f64], &mut [f32]),
+    ) {
+        let Some(opacities) = opacities else {
+            next.copy_from_slice(arriving);
+            strengths.iter_mut().zip(arriving).for_each(|(s, &arriving)| *s = arriving as f32);
+            return;
+        };
+        let columns = known.clone().zip(arriving).zip(next.iter_mut().zip(strengths));
+        for ((x, &arriving), (next, strength)) in columns {
+            let opacity = opacities.at(x, self.phase[0]);
+            let half = if opacity > 0.0 { self.through(opacity, 0.5) } else { 1.0 };
+            let here = arriving * half;
+            (*next, *strength) = (here * half, here as f32);
         }
     }
 
-    /// A column that was not in the volume at the slice before.
+    /// A column that was not in the volume at the slice before, or is not yet.
     #[cold]
-    fn enter(&self, at: [usize; 2], opacity: f64) -> (f64, f64) {
-        let Columns { shear, ratio, .. } = self.columns;
+    fn enter(&self, at: [usize; 2], opacities: Option<&Opacities>) -> (f64, f64) {
+        let shear = &self.columns.shear;
         let low = shear.window(self.slice).low;
         let column = [at[0] as f64 + low[0] as f64, at[1] as f64 + low[1] as f64];
         let initial = self.columns.initial(column);
-        if opacity <= 0.0 {
-            return (initial, initial);
+        match opacities.map(|opacities| opacities.at(at[0], self.phase[0])) {
+            Some(opacity) if opacity > 0.0 && self.entered[0].contains(&at[0]) => {
+                let strength = initial * self.through(opacity, shear.depth(self.slice, at));
+                (strength, strength * self.through(opacity, 0.5))
+            }
+            _ => (initial, initial),
         }
-        let strength = initial * (1.0 - thicken(opacity, ratio * shear.depth(self.slice, at)));
-        (strength, strength * (1.0 - thicken(opacity, ratio / 2.0)))
     }
 
-    /// What left the slice before along a column, if it was in the volume there.
+    /// What comes through a part of a slab between two slices.
     #[inline]
-    fn arriving(&self, [x, y]: [usize; 2]) -> Option<f64> {
-        let x = x.checked_add_signed(self.shift[0]).filter(|x| self.came[0].contains(x))?;
-        let y = y.checked_add_signed(self.shift[1]).filter(|y| self.came[1].contains(y))?;
-        Some(self.columns.leaving[y * self.columns.shear.width()[0] + x])
+    fn through(&self, opacity: f32, part: f64) -> f64 {
+        1.0 - thicken(f64::from(opacity), self.columns.ratio * part)
     }
+}
 
-    fn phase(&self) -> [f64; 2] {
-        self.columns.shear.window(self.slice).phase
+/// A row of opacities at columns' places, interpolated in the slice.
+struct Opacities {
+    /// The rows of voxels that the row of columns goes between.
+    lower: Row,
+    upper: Row,
+    /// Both interpolated, with one voxel repeated at each end.
+    row: Vec<f32>,
+}
+
+/// A row of voxels of the slice.
+struct Row {
+    y: Option<usize>,
+    /// Whether any opacity is above 0.
+    any: bool,
+    opacities: Vec<f32>,
+}
+
+impl Row {
+    fn read(&mut self, walk: &Walk<'_>, y: usize) {
+        if self.y != Some(y) {
+            let at = (walk.slice, y);
+            self.any = walk.casters.row(&walk.columns.shear, at, &mut self.opacities);
+            self.y = Some(y);
+        }
     }
 }
 
 impl Opacities {
     fn new(across: usize) -> Self {
-        let bricks = across.div_ceil(EDGE);
-        let row = || vec![0.0; bricks * EDGE];
-        let occupied = || vec![false; bricks];
-        let (lower, upper) = (row(), row());
-        Self { lower, upper, row: vec![0.0; across + 2], occupied: [occupied(), occupied()] }
+        let room = across.next_multiple_of(EDGE);
+        let row = || Row { y: None, any: false, opacities: vec![0.0; room] };
+        Self { lower: row(), upper: row(), row: vec![0.0; across + 2] }
     }
 
-    /// Interpolates between the two rows of voxels that row `y` of the columns goes between; whether anything is there.
+    /// Interpolates between the rows of voxels `y − 1` and `y`, which row `y` of columns goes between; whether anything
+    /// is there. Rows that are not there are the border's again.
     fn read(&mut self, walk: &Walk<'_>, y: usize) -> bool {
-        let shear = &walk.columns.shear;
-        let (phase, last) = (walk.phase()[1] as f32, shear.size[1] - 1);
-        let [below, above] = &mut self.occupied;
-        // Of the voxels y − 1 and y, those that are not there are the border's again.
-        let upper = walk.casters.row(shear, (walk.slice, y.min(last)), &mut self.upper, above);
-        if phase == 0.0 {
-            std::mem::swap(&mut self.lower, &mut self.upper);
-        } else {
-            let lower = (walk.slice, y.saturating_sub(1));
-            let lower = walk.casters.row(shear, lower, &mut self.lower, below);
-            if lower || upper {
-                for (low, high) in self.lower.iter_mut().zip(&self.upper) {
-                    *low = *high + phase * (*low - *high);
-                }
-            }
-            if !(lower || upper) {
-                return false;
-            }
+        let [across, down, _] = walk.columns.shear.size;
+        let phase = walk.phase[1];
+        std::mem::swap(&mut self.lower, &mut self.upper);
+        self.upper.read(walk, y.min(down - 1));
+        let mut any = self.upper.any;
+        if phase > 0.0 {
+            self.lower.read(walk, y.saturating_sub(1));
+            any |= self.lower.any;
         }
-        let across = shear.size[0];
-        self.row[1..=across].copy_from_slice(&self.lower[..across]);
+        if !any {
+            return false;
+        }
+        let (lower, upper) = (&self.lower.opacities, &self.upper.opacities);
+        if phase > 0.0 {
+            let between = self.row[1..].iter_mut().zip(lower.iter().zip(upper)).take(across);
+            between.for_each(|(row, (low, high))| *row = high + phase * (low - high));
+        } else {
+            self.row[1..=across].copy_from_slice(&upper[..across]);
+        }
         self.row[0] = self.row[1];
         self.row[across + 1] = self.row[across];
-        upper || phase != 0.0
+        true
     }
 
     /// The opacity where column `x` of the row meets the slice.
     #[inline]
-    fn at(&self, x: usize, phase: [f64; 2]) -> f64 {
+    fn at(&self, x: usize, phase: f32) -> f32 {
         let (before, behind) = (self.row[x], self.row[x + 1]);
-        f64::from(behind + phase[0] as f32 * (before - behind))
+        behind + phase * (before - behind)
     }
 }
