@@ -12,7 +12,7 @@ mod slide;
 use crate::bricks::Bricks;
 pub use buffer::Buffer;
 pub use falloff::Falloff;
-pub use shear::{Shear, Window};
+pub use shear::{Place, Shear, Window};
 pub use slide::Slide;
 
 /// β of one light at every interesting voxel: 0 ..= 65535 stands for 0..=1 times `full`.

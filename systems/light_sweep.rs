@@ -6,6 +6,8 @@
 
 mod casters;
 mod columns;
+mod inputs;
+mod opacities;
 mod voxels;
 
 use std::mem::size_of;
@@ -13,48 +15,21 @@ use std::mem::size_of;
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::bricks::{Bricks, most_bytes};
-use crate::components::{
-    CastsShadow, Light, Name, OpacityUnit, Order, ProjectedBy, Shaft, Toward, View, Voxelize,
-};
+use crate::bricks::most_bytes;
+use crate::components::{CastsShadow, Light, Name, OpacityUnit, ProjectedBy};
 use crate::error::Error;
-use crate::face::{Extent, Faces};
-use crate::grid::{Grid, Painted, Scalars};
-use crate::products::{Composite, Coverage, LightStrength, Opacity};
-use crate::ray::Camera;
+use crate::grid::Grid;
+use crate::products::LightStrength;
 use crate::schedule::{Kind, Outbox, Plan, System, Watch};
 use crate::shading::toward;
 use crate::strength::{Buffer, Falloff, Shear, Slide, quantize};
 use casters::Casters;
 use columns::Columns;
+use inputs::{Inputs, hybrid_coverage, lit_volume, observer, reads_buffer, stated_grid};
 use voxels::Voxels;
 
 /// Makes the [`LightStrength`] of every light that `casts_shadow`; other lights cost nothing.
 pub struct LightSweep;
-
-/// What one light's strengths are made from. Nothing of a view, but for a light that stands at the observer.
-#[derive(PartialEq)]
-struct Inputs {
-    grid: Grid,
-    /// u, world units.
-    unit: f64,
-    opacity: Source,
-    /// The opacities of hybrid polygons, which cast shadows without being in the volume.
-    polygons: Vec<Bricks<f32>>,
-    /// Unit vector towards the light.
-    toward: DVec3,
-    shadow: CastsShadow,
-    projected: Option<ProjectedBy>,
-    /// Whether something reads strengths outside the voxels.
-    buffer: bool,
-}
-
-/// The opacity that is lit: matted, or the volume's own.
-#[derive(PartialEq, Clone)]
-enum Source {
-    Made(Bricks<f32>),
-    Painted(Painted),
-}
 
 impl System for LightSweep {
     type Product = LightStrength;
@@ -133,70 +108,6 @@ impl System for LightSweep {
     }
 }
 
-/// The first volume of the scene with an opacity: of the matted voxels, of the volume's own, of its painted ones.
-fn lit_volume(world: &World) -> Option<(Entity, Grid, Source)> {
-    type Opacities<'a> = (Option<&'a Composite>, Option<&'a Opacity>, Option<&'a Painted>);
-    let mut query = world.query::<(Entity, &Grid, Option<&Order>, Opacities<'_>)>();
-    let volumes =
-        query.iter().filter_map(|(entity, grid, order, (composite, opacity, painted))| {
-            let source = composite
-                .map(|composite| Source::Made(composite.0.opacity.clone()))
-                .or_else(|| opacity.map(|opacity| Source::Made(opacity.voxels.clone())))
-                .or_else(|| painted.map(|painted| Source::Painted(painted.clone())))?;
-            Some((order.copied(), (entity, *grid, source)))
-        });
-    volumes.min_by_key(|(order, (entity, ..))| (*order, *entity)).map(|(_, volume)| volume)
-}
-
-/// What casts shadows though it is drawn by the hybrid ray tracer, in the order of the scene.
-fn hybrid_coverage(world: &World, grid: &Grid) -> Result<Vec<Bricks<f32>>, Error> {
-    let mut query = world
-        .query::<(Entity, &Coverage, Option<&Order>)>()
-        .with::<&Faces>()
-        .without::<&Voxelize>();
-    let mut found: Vec<_> = query.iter().collect();
-    found.sort_by_key(|(entity, _, order)| (order.copied(), *entity));
-    let opacity = |(_, coverage, _): (Entity, &Coverage, Option<&Order>)| {
-        let opacity = &coverage.0.opacity;
-        if opacity.size() == grid.size {
-            return Ok(opacity.clone());
-        }
-        let problem = format!(
-            "a coverage of {:?} voxels was made for a volume of {:?}",
-            opacity.size(),
-            grid.size
-        );
-        Err(Error::Schedule(problem))
-    };
-    found.into_iter().map(opacity).collect()
-}
-
-/// The grid of the first volume that states voxels: what a plan knows before anything is made.
-fn stated_grid(world: &World) -> Option<Grid> {
-    let mut query =
-        world.query::<(Entity, &Grid, Option<&Order>, Option<&Scalars>, Option<&Painted>)>();
-    let stated =
-        query.iter().filter(|(.., scalars, painted)| scalars.is_some() || painted.is_some());
-    stated.min_by_key(|(entity, _, order, ..)| (order.copied(), *entity)).map(|found| *found.1)
-}
-
-/// The direction towards the observer for a light that stands there; for others nothing of the view is read.
-fn observer(world: &World, light: &Light, grid: &Grid) -> DVec3 {
-    let (Toward::Observer(_), Some(extent)) = (light.toward, Extent::of(grid.corners())) else {
-        return DVec3::ZERO;
-    };
-    let mut query = world.query::<(Entity, &View, Option<&Order>)>();
-    let view = query.iter().min_by_key(|(entity, _, order)| (order.copied(), *entity));
-    let view = view.map_or_else(View::default, |(_, view, _)| view.clone());
-    -Camera::new(&view, &extent).forward
-}
-
-/// Whether hybrid polygons receive this light, or a shaft of it is seen.
-fn reads_buffer(world: &World, light: Entity) -> bool {
-    world.query::<&Faces>().without::<&Voxelize>().iter().next().is_some()
-        || world.get::<&Shaft>(light).is_ok_and(|shaft| shaft.attenuated)
-}
-
 /// The most bytes that a light's strengths take, and the slices in memory while they are made.
 fn most(grid: &Grid, toward: DVec3, shadow: &CastsShadow, buffer: bool) -> u64 {
     let Some(shear) = Shear::new(grid, toward) else {
@@ -210,10 +121,11 @@ fn most(grid: &Grid, toward: DVec3, shadow: &CastsShadow, buffer: bool) -> u64 {
     most_bytes::<u16>(grid.size).saturating_add(columns)
 }
 
-/// The bias along the light, in slices; rounded to 2⁻²⁰, so that a whole number of slices stays one.
+/// The bias along the light, in slices; rounded to 2⁻²⁰, so that a whole number of slices stays one. A bias past the whole
+/// volume is no more than that.
 fn bias_slices(grid: &Grid, shear: &Shear, shadow: &CastsShadow) -> f64 {
     let slices = shadow.bias_voxels * grid.spacing().min_element() / shear.distance;
-    (slices * 1_048_576.0).round() / 1_048_576.0
+    (slices.min((shear.size[2] + 1) as f64) * 1_048_576.0).round() / 1_048_576.0
 }
 
 /// Slices that are needed at once.
@@ -236,9 +148,11 @@ fn sweep(
     let brightest = if brightest > 0.0 { brightest } else { 1.0 };
     let full = (f64::from(brightest) / falloff.least()) as f32;
     let mut columns =
-        Columns::new(shear, slide.as_ref(), shear.distance / inputs.unit, depth(bias, &shear));
+        Columns::new(&shear, slide.as_ref(), shear.distance / inputs.unit, depth(bias, &shear));
     let mut voxels = Voxels::new(&casters.opacity, &falloff, bias, full);
-    let mut slices = Vec::new();
+    let [width, height] = shear.width();
+    let kept = if inputs.buffer { width * height * shear.size[2] } else { 0 };
+    let mut slices = Vec::with_capacity(kept);
     watch.expect(shear.size[2] as u64);
     for slice in 0..shear.size[2] {
         watch.check()?;

@@ -44,11 +44,10 @@ impl Buffer {
             before()
         } else {
             let [width, height] = self.shear.width();
+            let plane = |slice: usize| &self.slices[slice * width * height..][..width * height];
             let scale = f64::from(self.full) / 65535.0;
-            let read = |slice: usize, at: usize| {
-                f64::from(self.slices[slice * width * height + at]) * scale
-            };
-            self.shear.interpolate(column, slice.min(leave), read, before)
+            let place = self.shear.place(column, slice.min(leave));
+            scale * self.shear.interpolate(place.as_ref(), plane, || before() / scale)
         };
         (strength / self.falloff.divisor(self.falloff.distance(world))) as f32
     }

@@ -55,7 +55,10 @@ impl Falloff {
     #[must_use]
     #[inline]
     pub fn divisor(&self, distance: f64) -> f64 {
-        self.k1 + self.k2 * distance.clamp(self.range[0], self.range[1])
+        // A distance that is no number is the least.
+        let held =
+            if distance > self.range[0] { distance.min(self.range[1]) } else { self.range[0] };
+        self.k1 + self.k2 * held
     }
 
     /// The least divisor in the volume.

@@ -118,7 +118,8 @@ fn upright(toward: DVec3, up: DVec3) -> DVec3 {
 
 /// Rec. 709 luminance of linear colour, times alpha: texels are associated. Never NaN.
 fn luminance(&[r, g, b, _]: &[f32; 4]) -> f32 {
-    (0.2126 * r + 0.7152 * g + 0.0722 * b).max(0.0).min(BRIGHTEST)
+    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    if luminance > 0.0 { luminance.min(BRIGHTEST) } else { 0.0 }
 }
 
 impl Level {

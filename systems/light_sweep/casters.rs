@@ -1,6 +1,6 @@
 //! What attenuates a light: opacities of the volume and of polygons, read a row of a slice at a time.
 
-use super::Source;
+use super::inputs::Source;
 use crate::bricks::{Bricks, EDGE, VOXELS};
 use crate::grid::Painted;
 use crate::strength::Shear;
@@ -49,12 +49,17 @@ impl Casters {
 fn add(brick: &[f32; VOXELS], first: usize, stride: usize, row: &mut [f32]) -> bool {
     let mut any = false;
     for (x, total) in row.iter_mut().enumerate() {
-        // In this order a NaN becomes 0.
-        let opacity = brick[first + x * stride].max(0.0).min(1.0);
+        let opacity = sound(brick[first + x * stride]);
         any |= opacity > 0.0;
         *total = if *total > 0.0 { 1.0 - (1.0 - *total) * (1.0 - opacity) } else { opacity };
     }
     any
+}
+
+/// An opacity in 0..=1; 0 for a NaN.
+#[inline]
+fn sound(opacity: f32) -> f32 {
+    if opacity > 0.0 { opacity.min(1.0) } else { 0.0 }
 }
 
 /// The opacities of voxels that were classified and shaded already.
@@ -62,7 +67,7 @@ fn alphas(painted: &Painted, size: [usize; 3]) -> Bricks<f32> {
     let alpha = |at: usize| match painted {
         Painted::U8(values) => f32::from(values[at][3]) / 255.0,
         Painted::U16(values) => f32::from(values[at][3]) / 65535.0,
-        Painted::F32(values) => values[at][3].max(0.0).min(1.0),
+        Painted::F32(values) => sound(values[at][3]),
     };
     Bricks::make(size, |place, brick| {
         for (at, [x, y, z]) in place.voxels() {

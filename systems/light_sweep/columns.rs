@@ -11,16 +11,16 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::casters::Casters;
-use crate::bricks::EDGE;
+use super::opacities::Opacities;
 use crate::composite::thicken;
-use crate::strength::{Shear, Slide};
+use crate::strength::{Place, Shear, Slide};
 
 /// Rows of columns that one task walks.
 const ROWS: usize = 16;
 
 /// The columns at one slice, and their strengths at the slices within the bias before it.
 pub(super) struct Columns<'a> {
-    pub shear: Shear,
+    pub shear: &'a Shear,
     slide: Option<&'a Slide>,
     cell: [f64; 2],
     /// Δ/u.
@@ -34,10 +34,10 @@ pub(super) struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     /// Columns before the volume; `depth` slices are remembered and `ratio` is Δ/u.
-    pub fn new(shear: Shear, slide: Option<&'a Slide>, ratio: f64, depth: usize) -> Self {
+    pub fn new(shear: &'a Shear, slide: Option<&'a Slide>, ratio: f64, depth: usize) -> Self {
         let [width, height] = shear.width();
         let kept = width * height;
-        let cell = slide.map_or([0.0; 2], |slide| slide.cell(&shear));
+        let cell = slide.map_or([0.0; 2], |slide| slide.cell(shear));
         let (leaving, next) = (vec![0.0; kept], vec![0.0; kept]);
         Self { shear, slide, cell, ratio, leaving, next, ring: vec![vec![0.0; kept]; depth] }
     }
@@ -58,10 +58,11 @@ impl<'a> Columns<'a> {
         &self.ring[slot]
     }
 
-    /// β_0 · T at a column and a place along it, at most the depth before the last slice.
-    pub fn strength(&self, column: [f64; 2], place: f64) -> f64 {
-        let read = |slice: usize, at: usize| f64::from(self.ring[slice % self.ring.len()][at]);
-        self.shear.interpolate(column, place, read, || self.initial(column))
+    /// β_0 · T at a place in column `column`, at most the depth before the last slice.
+    #[inline]
+    pub fn strength(&self, place: Option<&Place>, column: [f64; 2]) -> f64 {
+        let plane = |slice: usize| &*self.ring[slice % self.ring.len()];
+        self.shear.interpolate(place, plane, || self.initial(column))
     }
 
     /// β_0 of a column.
@@ -88,7 +89,7 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(columns: &'a Columns<'a>, slice: usize, casters: &'a Casters) -> Self {
-        let shear = &columns.shear;
+        let shear = columns.shear;
         let (window, was) = (shear.window(slice), shear.window(slice.saturating_sub(1)));
         let phase = window.phase.map(|phase| phase as f32);
         let came = if slice == 0 { [0..0, 0..0] } else { shear.entered(slice - 1) };
@@ -98,12 +99,13 @@ impl<'a> Walk<'a> {
 
     /// Rows of columns from `first` on.
     fn rows(&self, first: usize, next: &mut [f64], strengths: &mut [f32]) {
-        let shear = &self.columns.shear;
+        let shear = self.columns.shear;
         let width = shear.width()[0];
         let mut opacities = Opacities::new(shear.size[0]);
         let rows = next.chunks_exact_mut(width).zip(strengths.chunks_exact_mut(width));
         for (y, (next, strengths)) in (first..).zip(rows) {
-            let any = self.entered[1].contains(&y) && opacities.read(self, y);
+            let any = self.entered[1].contains(&y)
+                && opacities.read((self.casters, shear), (self.slice, y), self.phase[1]);
             let opacities = any.then_some(&opacities);
             let (known, arriving) = self.arriving(y);
             for x in (0..known.start).chain(known.end..width) {
@@ -162,7 +164,7 @@ impl<'a> Walk<'a> {
     /// A column that was not in the volume at the slice before, or is not yet.
     #[cold]
     fn enter(&self, at: [usize; 2], opacities: Option<&Opacities>) -> (f64, f64) {
-        let shear = &self.columns.shear;
+        let shear = self.columns.shear;
         let low = shear.window(self.slice).low;
         let column = [at[0] as f64 + low[0] as f64, at[1] as f64 + low[1] as f64];
         let initial = self.columns.initial(column);
@@ -179,74 +181,5 @@ impl<'a> Walk<'a> {
     #[inline]
     fn through(&self, opacity: f32, part: f64) -> f64 {
         1.0 - thicken(f64::from(opacity), self.columns.ratio * part)
-    }
-}
-
-/// A row of opacities at columns' places, interpolated in the slice.
-struct Opacities {
-    /// The rows of voxels that the row of columns goes between.
-    lower: Row,
-    upper: Row,
-    /// Both interpolated, with one voxel repeated at each end.
-    row: Vec<f32>,
-}
-
-/// A row of voxels of the slice.
-struct Row {
-    y: Option<usize>,
-    /// Whether any opacity is above 0.
-    any: bool,
-    opacities: Vec<f32>,
-}
-
-impl Row {
-    fn read(&mut self, walk: &Walk<'_>, y: usize) {
-        if self.y != Some(y) {
-            let at = (walk.slice, y);
-            self.any = walk.casters.row(&walk.columns.shear, at, &mut self.opacities);
-            self.y = Some(y);
-        }
-    }
-}
-
-impl Opacities {
-    fn new(across: usize) -> Self {
-        let room = across.next_multiple_of(EDGE);
-        let row = || Row { y: None, any: false, opacities: vec![0.0; room] };
-        Self { lower: row(), upper: row(), row: vec![0.0; across + 2] }
-    }
-
-    /// Interpolates between the rows of voxels `y − 1` and `y`, which row `y` of columns goes between; whether anything
-    /// is there. Rows that are not there are the border's again.
-    fn read(&mut self, walk: &Walk<'_>, y: usize) -> bool {
-        let [across, down, _] = walk.columns.shear.size;
-        let phase = walk.phase[1];
-        std::mem::swap(&mut self.lower, &mut self.upper);
-        self.upper.read(walk, y.min(down - 1));
-        let mut any = self.upper.any;
-        if phase > 0.0 {
-            self.lower.read(walk, y.saturating_sub(1));
-            any |= self.lower.any;
-        }
-        if !any {
-            return false;
-        }
-        let (lower, upper) = (&self.lower.opacities, &self.upper.opacities);
-        if phase > 0.0 {
-            let between = self.row[1..].iter_mut().zip(lower.iter().zip(upper)).take(across);
-            between.for_each(|(row, (low, high))| *row = high + phase * (low - high));
-        } else {
-            self.row[1..=across].copy_from_slice(&upper[..across]);
-        }
-        self.row[0] = self.row[1];
-        self.row[across + 1] = self.row[across];
-        true
-    }
-
-    /// The opacity where column `x` of the row meets the slice.
-    #[inline]
-    fn at(&self, x: usize, phase: f32) -> f32 {
-        let (before, behind) = (self.row[x], self.row[x + 1]);
-        behind + phase * (before - behind)
     }
 }

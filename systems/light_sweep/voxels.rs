@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::columns::Columns;
 use crate::bricks::{Bricks, EDGE};
-use crate::strength::{Falloff, Shear, quantize};
+use crate::strength::{Falloff, Place, Shear, quantize};
 
 /// The strengths at interesting voxels, gathered slice by slice.
 pub(super) struct Voxels<'a> {
@@ -24,6 +24,29 @@ struct Lit {
     strengths: Vec<u16>,
 }
 
+/// The beams of light to the voxels of a slice: all are alike but for whole columns.
+struct Beams<'a> {
+    columns: &'a Columns<'a>,
+    slice: usize,
+    /// Where the strength for voxel (0, 0) is read, and at which distance along the light that is.
+    place: Option<Place>,
+    distance: f64,
+    /// What the distance grows by from a voxel to its neighbours across and down.
+    farther: [f64; 2],
+}
+
+impl Beams<'_> {
+    /// β at a voxel of the slice.
+    #[inline]
+    fn beta(&self, voxel: [usize; 2], falloff: &Falloff) -> f64 {
+        let [x, y] = voxel.map(|v| v as f64);
+        let column = self.columns.shear.column([x, y], self.slice as f64);
+        let place = self.place.map(|place| place.moved(voxel));
+        let distance = self.distance + x * self.farther[0] + y * self.farther[1];
+        self.columns.strength(place.as_ref(), column) / falloff.divisor(distance)
+    }
+}
+
 impl<'a> Voxels<'a> {
     pub fn new(opacity: &'a Bricks<f32>, falloff: &'a Falloff, bias: f64, full: f32) -> Self {
         Self { opacity, falloff, bias, full, slices: Vec::new() }
@@ -31,14 +54,23 @@ impl<'a> Voxels<'a> {
 
     /// Lights the interesting voxels of the slice that the columns have come to.
     pub fn light(&mut self, slice: usize, columns: &Columns<'_>) {
-        let rows = columns.shear.size[1].div_ceil(EDGE);
-        let rows = (0..rows).into_par_iter().map(|row| self.row(slice, row, columns));
-        let rows = rows.collect();
+        let shear = columns.shear;
+        let distance = |x, y| self.falloff.distance(shear.world([x, y, slice as f64]));
+        let first = distance(0.0, 0.0);
+        let beams = Beams {
+            columns,
+            slice,
+            place: shear.place(shear.column([0.0; 2], slice as f64), slice as f64 - self.bias),
+            distance: first - self.bias * shear.distance,
+            farther: [distance(1.0, 0.0) - first, distance(0.0, 1.0) - first],
+        };
+        let rows = (0..shear.size[1].div_ceil(EDGE)).into_par_iter();
+        let rows = rows.map(|row| self.row(row, &beams)).collect();
         self.slices.push(rows);
     }
 
-    fn row(&self, slice: usize, row: usize, columns: &Columns<'_>) -> Lit {
-        let shear = &columns.shear;
+    fn row(&self, row: usize, beams: &Beams<'_>) -> Lit {
+        let (shear, slice) = (beams.columns.shear, beams.slice);
         let bricks = shear.size[0].div_ceil(EDGE);
         let mut lit = Lit { starts: Vec::with_capacity(bricks), strengths: Vec::new() };
         for brick in 0..bricks {
@@ -46,24 +78,15 @@ impl<'a> Voxels<'a> {
             let Some(opacities) = self.opacity.brick(place(shear, [brick, row], slice)) else {
                 continue;
             };
-            for (at, within) in offsets(shear, slice) {
+            for ([x, y], within) in offsets(shear, slice) {
                 if opacities[within] > 0.0 {
-                    let voxel = [brick * EDGE + at[0], row * EDGE + at[1]].map(|v| v as f64);
-                    lit.strengths.push(self.voxel(voxel, slice as f64, columns));
+                    let beta = beams.beta([brick * EDGE + x, row * EDGE + y], self.falloff);
+                    lit.strengths.push(quantize(beta, f64::from(self.full)));
                 }
             }
         }
         lit.strengths.shrink_to_fit();
         lit
-    }
-
-    /// β at a voxel of a slice.
-    fn voxel(&self, voxel: [f64; 2], slice: f64, columns: &Columns<'_>) -> u16 {
-        let (shear, place) = (&columns.shear, slice - self.bias);
-        let strength = columns.strength(shear.column(voxel, slice), place);
-        let distance = self.falloff.distance(shear.world([voxel[0], voxel[1], slice]));
-        let divisor = self.falloff.divisor(distance - self.bias * shear.distance);
-        quantize(strength / divisor, f64::from(self.full))
     }
 
     /// Puts the strengths into the bricks of what is relit.

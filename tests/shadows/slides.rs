@@ -10,7 +10,7 @@ use crate::setup::{NO_BIAS, Scene, at, beta, cubes};
 fn checkerboard(checks: usize, texels: usize, size_mm: f64, wrap: Wrap) -> ProjectedBy {
     let side = checks * texels;
     let white = |at: usize| {
-        let white = (at % side / texels + at / side / texels) % 2 == 0;
+        let white = (at % side / texels + at / side / texels).is_multiple_of(2);
         [f32::from(white); 3].map(|c| c).into_iter().chain([1.0]).collect::<Vec<_>>()
     };
     let pixels = (0..side * side).map(|at| white(at).try_into().unwrap()).collect();

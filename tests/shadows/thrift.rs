@@ -121,17 +121,23 @@ fn a_head_of_ct_size_is_swept_in_a_moment_and_little_memory() {
     let interesting: usize =
         voxels.stored().map(|(_, b)| b.iter().filter(|&&a| a > 0.0).count()).sum();
     println!("{:.1} % interesting", 100.0 * interesting as f64 / (256.0 * 256.0 * 113.0));
-    println!("toward the light      milliseconds  bytes   with buffer: milliseconds  bytes");
+    println!("toward the light      ms, best of 3  bytes    with buffer: ms  bytes");
     for toward in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.4, -0.8, 0.5], [1.0, 1.0, 1.0]] {
         let mut scene = Scene::new(cubes(size), toward, CastsShadow::default(), head);
-        let mut timed = |scene: &mut Scene| {
-            let start = Instant::now();
-            let strength = scene.sweep();
-            (start.elapsed().as_secs_f64() * 1e3, strength.bytes())
+        let timed = |scene: &mut Scene| {
+            let mut best = f64::INFINITY;
+            for _ in 0..3 {
+                // Another bias of the same size is another input: the sweep is made again.
+                scene.world.get::<&mut CastsShadow>(scene.light).unwrap().bias_voxels += 1e-12;
+                let start = Instant::now();
+                scene.sweep();
+                best = best.min(start.elapsed().as_secs_f64() * 1e3);
+            }
+            (best, scene.sweep().bytes())
         };
         let (time, bytes) = timed(&mut scene);
         let (more, all) = timed(&mut scene.buffered());
-        println!("{:<21} {time:<13.1} {bytes:<8} {more:<26.1} {all}", format!("{toward:?}"));
+        println!("{:<21} {time:<14.1} {bytes:<8} {more:<15.1} {all}", format!("{toward:?}"));
         assert!(bytes < 5_000_000, "{bytes}");
     }
 }

@@ -51,10 +51,10 @@ fn a_window_holds_both_neighbours_of_every_voxel_of_its_slice() {
         let shear = shear(toward);
         for slice in 0..shear.size[2] {
             let (window, width) = (shear.window(slice), shear.width());
-            for axis in 0..2 {
+            for (axis, &width) in width.iter().enumerate() {
                 let last = shear.size[axis] as f64 - 1.0 + window.phase[axis];
                 assert!((0.0..1.0).contains(&window.phase[axis]));
-                assert!(last.ceil() < width[axis] as f64, "{toward:?} slice {slice}");
+                assert!(last.ceil() < width as f64, "{toward:?} slice {slice}");
             }
         }
     }
@@ -64,12 +64,18 @@ fn a_window_holds_both_neighbours_of_every_voxel_of_its_slice() {
 fn columns_are_read_where_they_are_and_are_fresh_before_they_enter() {
     let shear = shear([0.0, 0.5, -1.0]);
     let width = shear.width()[0];
-    let read = |slice: usize, at: usize| {
-        let window = shear.window(slice);
-        let column = (at / width) as f64 + window.low[1] as f64;
-        100.0 * slice as f64 + column
+    // Of every slice: 100 × its number + the number of the column down.
+    let stored = |slice: usize| -> Vec<f64> {
+        let low = shear.window(slice).low[1] as f64;
+        (0..width * shear.width()[1])
+            .map(|at| 100.0 * slice as f64 + (at / width) as f64 + low)
+            .collect()
     };
-    let at = |column: [f64; 2], place: f64| shear.interpolate(column, place, read, || -7.0);
+    let slices: Vec<_> = (0..shear.size[2]).map(stored).collect();
+    let at = |column: [f64; 2], along: f64| {
+        let place = shear.place(column, along);
+        shear.interpolate(place.as_ref(), |slice| &slices[slice][..], || -7.0)
+    };
     assert!((at([3.0, 2.25], 1.5) - 152.25).abs() < 1e-9);
     assert_eq!(at([3.0, 2.0], -0.5), -7.0);
     assert_eq!(at([3.0, 2.0], 99.0), 402.0);
