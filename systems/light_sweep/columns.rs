@@ -183,3 +183,38 @@ impl<'a> Walk<'a> {
         1.0 - thicken(f64::from(opacity), self.columns.ratio * part)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DAffine3, DVec3};
+
+    use super::super::inputs::Source;
+    use super::*;
+    use crate::bricks::Bricks;
+    use crate::grid::Grid;
+
+    #[test]
+    fn in_homogeneous_gel_strengths_follow_the_law_to_a_millionth() {
+        let size = [10, 12, 300];
+        let grid = Grid::new(size, DAffine3::IDENTITY).unwrap();
+        for (alpha, ratio) in
+            [(0.004_f32, 1.0), (0.004, 0.37), (0.5, 1e-3), (1e-9, 900.0), (0.9, 0.1)]
+        {
+            let bricks = Bricks::make(size, |_, brick| {
+                brick.fill(alpha);
+                true
+            });
+            let casters = Casters::new(&Source::Made(bricks), &[], size);
+            let shear = Shear::new(&grid, DVec3::NEG_Z).unwrap();
+            let mut columns = Columns::new(&shear, None, ratio, 1);
+            for slice in 0..size[2] {
+                let expected = libm::exp(slice as f64 * ratio * libm::log1p(-f64::from(alpha)));
+                let swept = columns.sweep(slice, &casters);
+                assert!(
+                    swept.iter().all(|&s| (f64::from(s) - expected).abs() < 1e-6),
+                    "{alpha} {slice}"
+                );
+            }
+        }
+    }
+}
