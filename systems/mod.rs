@@ -3,6 +3,7 @@
 pub mod cast;
 pub mod classify;
 pub mod gradient;
+pub mod light_sweep;
 pub mod matte;
 pub mod pyramid;
 pub mod relight;
@@ -19,6 +20,7 @@ pub static JOBS: &[Job] = &[
     Job::of::<shade::Shade>(),
     Job::of::<scan_convert::ScanConvert>(),
     Job::of::<matte::Matte>(),
+    Job::of::<light_sweep::LightSweep>(),
     Job::of::<relight::Relight>(),
     Job::of::<pyramid::StackPyramid>(),
     Job::of::<cast::Cast>(),
