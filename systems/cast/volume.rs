@@ -57,7 +57,7 @@ impl Cursor {
     /// At the first of some samples, restricted to sample numbers `range`.
     pub fn new(walk: &Walk, samples: Samples, range: [i64; 2]) -> Self {
         let mut cursor = Self { k: samples.first, end: samples.end.min(range[1]), at: samples.at };
-        cursor.advance(walk, (range[0] - samples.first).max(0));
+        cursor.advance(walk, range[0].saturating_sub(samples.first).max(0));
         cursor
     }
 
