@@ -2,5 +2,6 @@
 
 pub mod error;
 pub mod histogram;
+mod isovalues;
 pub mod sigma;
 mod ssim;

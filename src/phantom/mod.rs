@@ -4,14 +4,18 @@ mod head;
 mod molecule;
 mod shapes;
 mod simple;
+mod solid;
 mod textures;
 
 use crate::formats::Loaded;
 pub use simple::ball;
 pub use textures::texture;
 
+/// Makes a volume.
+type Maker = fn() -> Loaded;
+
 /// Every phantom: its name and its maker.
-const PHANTOMS: [(&str, fn() -> Loaded); 5] = [
+const PHANTOMS: [(&str, Maker); 5] = [
     ("head", head::head),
     ("molecule", molecule::molecule),
     ("ball", || simple::ball([64; 3], 24.0)),
@@ -38,4 +42,58 @@ fn choose<T: Copy>(table: &[(&str, T)], name: &str, kind: &str) -> Result<T, Str
         let known: Vec<_> = table.iter().map(|(known, _)| format!("`{known}`")).collect();
         format!("there is no {kind} `{name}`; choose one of {}", known.join(", "))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::Voxels;
+    use crate::grid::Scalars;
+
+    /// FNV-1a over the little-endian bits of the values.
+    fn fingerprint(name: &str) -> u64 {
+        let Voxels::Scalars(scalars) = phantom(name).unwrap().voxels else { unreachable!() };
+        let fold = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let start = 0xcbf2_9ce4_8422_2325;
+        match scalars {
+            Scalars::U16(values) => values.iter().flat_map(|v| v.to_le_bytes()).fold(start, fold),
+            Scalars::F32(values) => values.iter().flat_map(|v| v.to_le_bytes()).fold(start, fold),
+            _ => unreachable!(),
+        }
+    }
+
+    #[test]
+    fn every_phantom_has_the_same_bits_on_every_machine_and_any_number_of_threads() {
+        let known = [
+            ("head", 0xedb6_9522_2d24_0cda),
+            ("molecule", 0x7936_c79e_bdff_796d),
+            ("ball", 0xcfee_2086_fc0a_cc25),
+            ("slab", 0x1386_7599_6a12_2325),
+            ("ramp", 0x5d03_9334_d672_e325),
+        ];
+        assert!(names().eq(known.iter().map(|(name, _)| *name)));
+        for threads in [1, 2] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let made = pool.install(|| known.map(|(name, _)| (name, fingerprint(name))));
+            assert_eq!(made, known, "{threads} threads");
+        }
+    }
+
+    #[test]
+    fn every_phantom_is_centred_on_the_origin_and_has_a_value_for_each_voxel() {
+        for name in names() {
+            let loaded = phantom(name).unwrap();
+            let Voxels::Scalars(scalars) = &loaded.voxels else { unreachable!() };
+            assert_eq!(scalars.len(), loaded.grid.voxels(), "{name}");
+            let middle = loaded.grid.corners().into_iter().sum::<glam::DVec3>() / 8.0;
+            assert!(middle.length() < 1e-9, "{name}: {middle}");
+            assert!(loaded.warnings.is_empty());
+        }
+    }
+
+    #[test]
+    fn an_unknown_phantom_is_answered_with_the_names() {
+        let sentence = phantom("haed").unwrap_err();
+        assert!(names().all(|name| sentence.contains(&format!("`{name}`"))), "{sentence}");
+    }
 }

@@ -43,3 +43,43 @@ pub fn slab() -> Loaded {
 pub fn ramp() -> Loaded {
     field([64; 3], |[x, _, _]| (x + 31.5) / 63.0)
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
+mod tests {
+    use super::*;
+
+    fn values(loaded: &Loaded) -> Vec<f32> {
+        let Voxels::Scalars(Scalars::F32(values)) = &loaded.voxels else { unreachable!() };
+        values.to_vec()
+    }
+
+    #[test]
+    fn a_ball_is_half_full_at_its_radius_and_holds_its_volume() {
+        let made = ball([65; 3], 20.0);
+        assert_eq!(values(&made)[made.grid.offset([52, 32, 32])], 0.5);
+        let sum: f64 = values(&made).iter().map(|&v| f64::from(v)).sum();
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * (8000.0 + 20.0);
+        assert!((sum / volume - 1.0).abs() < 1e-3, "{sum} of {volume}");
+    }
+
+    #[test]
+    fn a_ball_of_no_size_is_still_a_volume() {
+        assert_eq!(ball([0, 1, 2], 1.0).grid.size, [2; 3]);
+    }
+
+    #[test]
+    fn a_slab_is_thirty_two_voxels_thick_along_z() {
+        let made = slab();
+        let column: f32 = (0..64).map(|z| values(&made)[made.grid.offset([5, 9, z])]).sum();
+        assert_eq!(column, 32.0);
+    }
+
+    #[test]
+    fn a_ramp_rises_equally_along_x_only() {
+        let made = ramp();
+        let row = &values(&made)[made.grid.offset([0, 3, 4])..][..64];
+        assert_eq!((row[0], row[63]), (0.0, 1.0));
+        assert!(row.windows(2).all(|pair| (pair[1] - pair[0] - 1.0 / 63.0).abs() < 1e-6));
+    }
+}

@@ -1,7 +1,8 @@
 //! What lies in the braincase: folded brain with ventricles, in fluid.
 
 use super::SIZE;
-use crate::phantom::shapes::{Piece, Slice, Solid, coverage};
+use crate::phantom::shapes::Piece;
+use crate::phantom::solid::{Slice, Solid, coverage};
 
 const FLUID: f32 = 1034.0;
 const WHITE: f32 = 1064.0;

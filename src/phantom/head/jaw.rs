@@ -1,7 +1,8 @@
 //! The lower jaw, two rows of teeth with a metal filling and its streaks, and the vertebrae of the neck.
 
 use super::{EDGE, Row};
-use crate::phantom::shapes::{Piece, Slice, Solid};
+use crate::phantom::shapes::Piece;
+use crate::phantom::solid::{Slice, Solid};
 
 /// The lower jaw: body, chin, rising branches with their two heads.
 const MANDIBLE: &[Piece] = &[

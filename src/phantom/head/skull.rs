@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::brain::BrainSlice;
 use super::{AIR, EDGE, Row};
-use crate::phantom::shapes::{FAR, Piece, Slice, Solid, coverage};
+use crate::phantom::shapes::Piece;
+use crate::phantom::solid::{FAR, Slice, Solid, coverage};
 
 /// The outside of the braincase; its inside is the same surface, deeper by the thickness.
 const CASE: &[Piece] = &[
@@ -120,7 +121,7 @@ impl SkullSlice<'_> {
         row.paint(lenses, 1110.0, EDGE);
         row.paint(nerves, 1065.0, EDGE);
         row.paint(hollows, AIR, EDGE);
-        row.paint(septum, 1240.0, EDGE);
+        row.paint(septum, 1750.0, EDGE);
     }
 }
 
