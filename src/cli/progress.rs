@@ -79,7 +79,10 @@ fn lines(watch: &Watch, stopped: &Receiver<()>) {
         let (stage, done, total) = watch.progress();
         looks += 1;
         if stage != last || looks > PATIENCE {
-            tell(format_args!("{stage}: {done} of {total}"));
+            match total {
+                0 => tell(format_args!("{stage} …")),
+                _ => tell(format_args!("{stage}: {done} of {total}")),
+            }
             (last, looks) = (stage, 0);
         }
     });

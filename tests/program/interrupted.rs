@@ -38,7 +38,7 @@ fn the_first_interrupt_stops_the_work_and_leaves_nothing_half_written() {
         .unwrap();
     let mut lines = BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
-    while !line.starts_with("cast: ") {
+    while !line.starts_with("cast") {
         line.clear();
         assert!(lines.read_line(&mut line).unwrap() > 0, "it ended before it was interrupted");
     }
