@@ -64,6 +64,7 @@ impl Default for CastsShadow {
 #[serde(deny_unknown_fields)]
 pub struct Shaft {
     /// Opacity of the dust where the light's strength is 1: 0..=1 per opacity unit; weaker light shows less dust.
+    #[schemars(range(min = 0, max = 1))]
     pub opacity: f32,
     /// Colour of the lit dust; default: the light's own colour.
     #[serde(default, skip_serializing_if = "Option::is_none")]

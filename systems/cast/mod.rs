@@ -9,6 +9,7 @@ mod band;
 mod beams;
 mod march;
 mod polygons;
+mod shaft;
 mod texture;
 mod volume;
 
@@ -17,7 +18,9 @@ use std::sync::Arc;
 use glam::DVec2;
 use hecs::{Entity, World};
 
-use crate::components::{DepthCue, Order, Sampling, Surface, TexturedBy, View, Voxelize};
+use crate::components::{
+    DepthCue, Light, Order, ProjectedBy, Sampling, Shaft, Surface, TexturedBy, View, Voxelize,
+};
 use crate::error::Error;
 use crate::face::{Extent, Faces};
 use crate::gel::{Gel as GelBricks, Texel, Texels};
@@ -31,6 +34,7 @@ use adaptive::{Aim, Caster, Ray, Refinement};
 use beams::{Beams, Occupied};
 use march::Hit;
 use polygons::{Look, Polygons, Seen};
+use shaft::Dust;
 use texture::Laid;
 use volume::{Cue, Cursor, Volume};
 
@@ -49,6 +53,7 @@ struct Inputs {
     lamps: Lamps,
     /// β of each light of `lamps` that casts a shadow.
     strengths: Vec<Option<LightStrength>>,
+    shafts: Vec<shaft::Stated>,
 }
 
 /// Faces that stay polygons, and how they look.
@@ -75,7 +80,7 @@ impl System for Cast {
     const READS: &'static [Kind] = &[
         Kind::View, Kind::Sampling, Kind::Extent, Kind::DepthCue, Kind::Grid, Kind::OpacityUnit, Kind::Gel,
         Kind::Pyramid, Kind::Faces, Kind::Surface, Kind::Voxelize, Kind::Textured, Kind::Order, Kind::Light,
-        Kind::CastsShadow, Kind::LightStrength,
+        Kind::CastsShadow, Kind::LightStrength, Kind::Shaft, Kind::Projects,
     ];
 
     fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
@@ -98,6 +103,7 @@ impl System for Cast {
                 strengths: strengths(world, &lamps),
                 polygons,
                 lamps,
+                shafts: shafts(world),
             };
             out.derive(entity, inputs, |inputs| cast(inputs, &camera, watch))?;
         }
@@ -132,6 +138,21 @@ fn hybrid_polygons(world: &World) -> Vec<Shown> {
 fn strengths(world: &World, lamps: &Lamps) -> Vec<Option<LightStrength>> {
     let strength = |light: Entity| world.get::<&LightStrength>(light).ok().map(|s| (*s).clone());
     lamps.shadowed.iter().map(|(light, _)| strength(*light)).collect()
+}
+
+/// The shafts of light, in the order of the scene.
+fn shafts(world: &World) -> Vec<shaft::Stated> {
+    type Beam<'a> = (&'a Shaft, &'a Light, Option<&'a ProjectedBy>, Option<&'a LightStrength>);
+    let mut query = world.query::<(&Order, Beam<'_>)>();
+    let mut shafts: Vec<_> = query.iter().collect();
+    shafts.sort_by_key(|(order, _)| **order);
+    let stated = |(_, (shaft, light, projected, strength)): (_, Beam<'_>)| shaft::Stated {
+        shaft: *shaft,
+        light: light.clone(),
+        projected: projected.cloned(),
+        strength: strength.filter(|_| shaft.attenuated).cloned(),
+    };
+    shafts.into_iter().map(stated).collect()
 }
 
 fn medium(world: &World) -> Option<Medium> {
@@ -209,8 +230,11 @@ impl<'a> Rays<'a> {
         let ratio = distance / medium.unit;
         let ratio = if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio };
         let pyramid = medium.pyramid.as_ref();
-        let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue };
-        let occupied = pyramid.map(|pyramid| {
+        let dust = Dust::new(&inputs.shafts, self.camera, distance)
+            .map_err(|problem| Error::entity("shaft", problem))?;
+        let clear = dust.is_none();
+        let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue, dust };
+        let occupied = pyramid.filter(|_| clear).map(|pyramid| {
             Beams::new(layout).occupied(gel, pyramid, &medium.grid, self.camera, distance)
         });
         self.refine(inputs, layout, Some((volume, occupied)), watch)
@@ -285,7 +309,8 @@ impl<T: Texel> BeamCaster<'_, T> {
         if range[0] >= range[1] {
             return Cursor::NOWHERE;
         }
-        let samples = volume.walk.enter(self.rays.camera.origin(window));
-        samples.map_or(Cursor::NOWHERE, |samples| Cursor::new(&volume.walk, samples, range))
+        let origin = self.rays.camera.origin(window);
+        let samples = volume.walk.enter(origin);
+        samples.map_or(Cursor::NOWHERE, |samples| Cursor::new(&volume.walk, samples, range, origin))
     }
 }

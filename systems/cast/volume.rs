@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3, Vec4};
 
+use super::shaft::Dust;
 use crate::composite::{Gathered, recolor, thicken};
 use crate::gel::{CELLS, EMPTY, Texel, Texels};
 use crate::pyramid::{Pyramid, empty_level_within};
@@ -43,6 +44,8 @@ pub struct Volume<'a, T> {
     pub distance: f64,
     /// The depth cue, if stated.
     pub cue: Option<Cue>,
+    /// Dust in shafts of light, all over the domain.
+    pub dust: Option<Dust>,
 }
 
 /// How far one ray is: the sample to come, where it is, and where the ray ends.
@@ -51,18 +54,21 @@ pub struct Cursor {
     k: i64,
     end: i64,
     at: [i64; 3],
+    /// The ray's world point at depth 0.
+    origin: DVec3,
 }
 
 impl Cursor {
-    /// At the first of some samples, restricted to sample numbers `range`.
-    pub fn new(walk: &Walk, samples: Samples, range: [i64; 2]) -> Self {
-        let mut cursor = Self { k: samples.first, end: samples.end.min(range[1]), at: samples.at };
+    /// At the first of some samples of the ray through `origin`, restricted to sample numbers `range`.
+    pub fn new(walk: &Walk, samples: Samples, range: [i64; 2], origin: DVec3) -> Self {
+        let end = samples.end.min(range[1]);
+        let mut cursor = Self { k: samples.first, end, at: samples.at, origin };
         cursor.advance(walk, range[0].saturating_sub(samples.first).max(0));
         cursor
     }
 
     /// A ray that meets no gel.
-    pub const NOWHERE: Self = Self { k: 0, end: 0, at: [0; 3] };
+    pub const NOWHERE: Self = Self { k: 0, end: 0, at: [0; 3], origin: DVec3::ZERO };
 
     #[inline]
     pub fn advance(&mut self, walk: &Walk, steps: i64) {
@@ -90,13 +96,14 @@ impl<T: Texel> Volume<'_, T> {
     /// and opacity per opacity unit. The cursor stays on it.
     #[inline]
     pub fn next(&self, cursor: &mut Cursor, until: i64, counts: &mut Counts) -> Option<Vec4> {
+        if let Some(dust) = &self.dust {
+            return self.next_dusty(dust, cursor, until, counts);
+        }
         let until = until.min(cursor.end);
-        let (table, [across, down, _]) = (self.gel.table(), self.gel.counts());
         while cursor.k < until {
             let cell = cursor.cell();
-            let brick = cell.map(|c| c / CELLS);
-            let entry = (brick[2] * down + brick[1]) * across + brick[0];
-            let stored = table[entry];
+            let entry = self.entry(cell);
+            let stored = self.gel.table()[entry];
             if let Some(level) = self.empty_level(entry, stored, cell) {
                 counts.cells_skipped += 1;
                 cursor.advance(&self.walk, self.leap(cursor, level));
@@ -109,6 +116,36 @@ impl<T: Texel> Volume<'_, T> {
             cursor.advance(&self.walk, 1);
         }
         None
+    }
+
+    /// The next sample in which there is gel or dust. Dust may be anywhere: no sample is stepped over.
+    fn next_dusty(
+        &self,
+        dust: &Dust,
+        cursor: &mut Cursor,
+        until: i64,
+        counts: &mut Counts,
+    ) -> Option<Vec4> {
+        while cursor.k < until.min(cursor.end) {
+            let cell = cursor.cell();
+            let stored = self.gel.table()[self.entry(cell)];
+            let gel = if stored == EMPTY { Vec4::ZERO } else { self.sample(stored, cell, cursor) };
+            counts.samples += 1;
+            let sample = dust.join(gel, cursor.origin, cursor.k);
+            if sample.w > 0.0 {
+                return Some(sample);
+            }
+            cursor.advance(&self.walk, 1);
+        }
+        None
+    }
+
+    /// The place of a cell's brick in the gel's table.
+    #[inline]
+    fn entry(&self, cell: [usize; 3]) -> usize {
+        let [across, down, _] = self.gel.counts();
+        let brick = cell.map(|c| c / CELLS);
+        (brick[2] * down + brick[1]) * across + brick[0]
     }
 
     /// The highest level of the pyramid whose cell around `cell` is known to be empty, if its level-0 cell is.
