@@ -67,6 +67,7 @@ pub struct Texels<T>(Arc<Stored<T>>);
 struct Stored<T> {
     counts: [usize; 3],
     table: Vec<u32>,
+    /// The stored bricks, and a last one of zeros that stands for all that are not stored.
     bricks: Vec<[T; TEXELS]>,
 }
 
@@ -105,7 +106,9 @@ impl<T: Texel> Texels<T> {
             *entry = stored.len() as u32;
             stored.push(place(at));
         }
-        let bricks = stored.par_iter().map(|&brick| fill_brick(size, brick, &fill)).collect();
+        let filled = stored.par_iter().map(|&brick| fill_brick(size, brick, &fill));
+        let zeros = rayon::iter::once([T::default(); TEXELS]);
+        let bricks = filled.chain(zeros).collect();
         Self(Arc::new(Stored { counts, table, bricks }))
     }
 
@@ -124,16 +127,17 @@ impl<T: Texel> Texels<T> {
     /// The texels of the stored bricks, x fastest.
     #[must_use]
     pub fn bricks(&self) -> &[[T; TEXELS]] {
-        &self.0.bricks
+        &self.0.bricks[..self.0.bricks.len() - 1]
     }
 
-    /// Tri-linear interpolation in a cell of stored brick `brick`: `cell` in 0..8, `at` in 0..1 within the cell.
+    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
+    /// 0..1 within the cell.
     ///
     /// The result is associated RGBA per opacity unit; exactly zero where all eight texels are.
     #[must_use]
     #[inline]
     pub fn sample(&self, brick: u32, cell: [usize; 3], at: Vec3) -> Vec4 {
-        let texels = &self.0.bricks[brick as usize];
+        let texels = &self.0.bricks[(brick as usize).min(self.0.bricks.len() - 1)];
         let first = ((cell[2] & 7) * ROW + (cell[1] & 7)) * ROW + (cell[0] & 7);
         let row = |offset: usize| {
             let pair = &texels[first + offset..first + offset + 2];
@@ -220,7 +224,7 @@ macro_rules! with_texels {
 }
 
 impl Gel {
-    /// [`Texels::make`] in the type of `kind`.
+    /// [`Texels::make`] in the type of `kind`; in 32 bits where that is left open.
     pub fn make(
         kind: TexelKind,
         size: [usize; 3],
@@ -228,9 +232,19 @@ impl Gel {
         fill: impl Fn([usize; 3], &mut [Vec4]) + Sync,
     ) -> Self {
         match kind {
-            TexelKind::F32 => Self::F32(Texels::make(size, holds, fill)),
+            TexelKind::Auto | TexelKind::F32 => Self::F32(Texels::make(size, holds, fill)),
             TexelKind::U16 => Self::U16(Texels::make(size, holds, fill)),
             TexelKind::U8 => Self::U8(Texels::make(size, holds, fill)),
+        }
+    }
+
+    /// The numbers that it is kept in.
+    #[must_use]
+    pub fn kind(&self) -> TexelKind {
+        match self {
+            Self::F32(_) => TexelKind::F32,
+            Self::U16(_) => TexelKind::U16,
+            Self::U8(_) => TexelKind::U8,
         }
     }
 
@@ -246,7 +260,7 @@ impl Gel {
 pub fn most_bytes(kind: TexelKind, size: [usize; 3]) -> u64 {
     let bricks: u64 = size.iter().map(|n| n.div_ceil(CELLS) as u64).product();
     let texel = match kind {
-        TexelKind::F32 => 16,
+        TexelKind::Auto | TexelKind::F32 => 16,
         TexelKind::U16 => 8,
         TexelKind::U8 => 4,
     };

@@ -186,7 +186,10 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
         })
     });
     let polygons = Polygons::new(seen.collect(), &beams, *camera, cue, inputs.strengths.clone());
-    let rays = Rays { camera, polygons, stop: f64::from(inputs.sampling.stop_at), cue };
+    // A transparency is never under 0: a ray that is not to stop goes on behind what is opaque.
+    let stop_at = f64::from(inputs.sampling.stop_at);
+    let stop = if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY };
+    let rays = Rays { camera, polygons, stop, cue };
     let Some(medium) = &inputs.volume else {
         return rays.refine::<[f32; 4]>(inputs, layout, None, watch);
     };
