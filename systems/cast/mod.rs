@@ -138,7 +138,9 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
             Seen::new(face, camera, Look::new(surface, face.normal, &inputs.lamps))
         })
     });
-    let polygons = Polygons::new(seen.collect(), &beams, cue);
+    // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
+    let slack = 1e-9 * inputs.extent.radius() + 1e-14 * inputs.extent.center().abs().max_element();
+    let polygons = Polygons::new(seen.collect(), &beams, slack, cue);
     let rays = Rays { camera, polygons, stop: f64::from(inputs.sampling.stop_at), cue };
     let Some(medium) = &inputs.volume else {
         return rays.refine::<[f32; 4]>(inputs, layout, None, watch);

@@ -121,12 +121,14 @@ pub struct Polygons {
     /// For each beam: its part of `binned`.
     starts: Vec<u32>,
     binned: Vec<u32>,
+    /// Depths no further apart than this are one, world units.
+    slack: f64,
     cue: Option<Cue>,
 }
 
 impl Polygons {
-    /// Sorts the polygons into beams.
-    pub fn new(faces: Vec<Seen>, beams: &Beams, cue: Option<Cue>) -> Self {
+    /// Sorts the polygons into beams; depths closer than `slack` (world units) differ by rounding alone.
+    pub fn new(faces: Vec<Seen>, beams: &Beams, slack: f64, cue: Option<Cue>) -> Self {
         let around = |face: &Seen| beams.around(face.low, face.high);
         let mut starts = vec![0_u32; beams.counts[0] * beams.counts[1] + 1];
         let each = |[across, down]: [std::ops::Range<usize>; 2]| {
@@ -145,7 +147,7 @@ impl Polygons {
                 next[beam] += 1;
             }
         }
-        Self { faces, starts, binned, cue }
+        Self { faces, starts, binned, slack, cue }
     }
 
     /// Whether there is no polygon.
@@ -164,6 +166,12 @@ impl Polygons {
             }
         }
         hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.face.cmp(&b.face)));
+        // Coincident polygons have one plane but not one centre, so that their depths differ in the last bits.
+        for tied in hits.chunk_by_mut(|a, b| b.depth - a.depth <= self.slack) {
+            let depth = tied[0].depth;
+            tied.iter_mut().for_each(|hit| hit.depth = depth);
+            tied.sort_unstable_by_key(|hit| hit.face);
+        }
     }
 
     /// Shades a hit.

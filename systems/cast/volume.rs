@@ -57,7 +57,8 @@ impl Cursor {
     /// At the first of some samples, restricted to sample numbers `range`.
     pub fn new(walk: &Walk, samples: Samples, range: [i64; 2]) -> Self {
         let mut cursor = Self { k: samples.first, end: samples.end.min(range[1]), at: samples.at };
-        cursor.advance(walk, (range[0] - samples.first).max(0));
+        // `range` may begin at the least of all numbers: no difference of the two is taken before the greater is known.
+        cursor.advance(walk, range[0].max(samples.first) - samples.first);
         cursor
     }
 
@@ -188,3 +189,6 @@ impl<T: Texel> Volume<'_, T> {
         ray
     }
 }
+
+#[cfg(test)]
+mod tests;
