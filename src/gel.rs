@@ -23,7 +23,8 @@ pub const EMPTY: u32 = u32::MAX;
 pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The channels as stored numbers: 1 is `1 / SCALE`.
     fn load(self) -> Vec4;
-    /// The nearest texel; integers clamp to 0..=1.
+    /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
+    /// without opacity are stepped over.
     fn store(channels: Vec4) -> Self;
     /// What a stored number is multiplied by.
     const SCALE: f32;
@@ -44,7 +45,8 @@ impl Texel for [u16; 4] {
         Vec4::from_array(self.map(f32::from))
     }
     fn store(channels: Vec4) -> Self {
-        channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16)
+        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16);
+        if texel[3] == 0 { Self::default() } else { texel }
     }
     const SCALE: f32 = 1.0 / 65535.0;
 }
@@ -54,7 +56,8 @@ impl Texel for [u8; 4] {
         Vec4::from_array(self.map(f32::from))
     }
     fn store(channels: Vec4) -> Self {
-        channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
+        if texel[3] == 0 { Self::default() } else { texel }
     }
     const SCALE: f32 = 1.0 / 255.0;
 }

@@ -63,7 +63,8 @@ impl Cursor {
     pub fn new(walk: &Walk, samples: Samples, range: [i64; 2], origin: DVec3) -> Self {
         let end = samples.end.min(range[1]);
         let mut cursor = Self { k: samples.first, end, at: samples.at, origin };
-        cursor.advance(walk, range[0].saturating_sub(samples.first).max(0));
+        // `range` may begin at the least of all numbers: no difference of the two is taken before the greater is known.
+        cursor.advance(walk, range[0].max(samples.first) - samples.first);
         cursor
     }
 
@@ -220,3 +221,6 @@ impl<T: Texel> Volume<'_, T> {
         ray
     }
 }
+
+#[cfg(test)]
+mod tests;
