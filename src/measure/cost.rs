@@ -74,6 +74,7 @@ impl CostTable {
     /// The layer that fills the table, to be put over a registry.
     ///
     /// A table of every thread's spans needs the subscriber to be the program's, not a thread's.
+    #[must_use]
     pub fn layer<S>(&self) -> impl Layer<S> + Send + Sync + use<S>
     where
         S: Subscriber + for<'a> LookupSpan<'a>,
