@@ -14,7 +14,8 @@ pub fn thicken(opacity: f64, ratio: f64) -> f64 {
     if ratio == 1.0 {
         opacity
     } else if ratio == 0.5 {
-        opacity / (1.0 + (1.0 - opacity).sqrt())
+        // Interpolation may leave an opacity a hair above 1.
+        opacity / (1.0 + (1.0 - opacity).max(0.0).sqrt())
     } else if ratio == 2.0 {
         opacity * (2.0 - opacity)
     } else if ratio <= 0.0 {

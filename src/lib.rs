@@ -5,6 +5,7 @@ pub mod classification;
 pub mod clipping;
 pub mod components;
 pub mod composite;
+pub mod coverage;
 pub mod error;
 pub mod face;
 pub mod formats;

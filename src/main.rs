@@ -1,2 +1,7 @@
-//! The `gelray` program.
-fn main() {}
+//! The `gelray` program: parse, run, report.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::main(std::env::args_os().collect())
+}

@@ -79,7 +79,7 @@ impl Relit<'_> {
 
 /// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
 fn betas(strength: Option<&LightStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
-    let Some(LightStrength { voxels, full }) = strength else { return [1.0; EDGE] };
+    let Some(LightStrength { voxels, full, .. }) = strength else { return [1.0; EDGE] };
     let Some(stored) = voxels.brick(brick) else { return [0.0; EDGE] };
     std::array::from_fn(|x| f32::from(stored[within + x]) / 65535.0 * full)
 }
@@ -120,7 +120,7 @@ mod tests {
         let [base, first, second] = [[0.1, 0.2, 0.3], [0.4, 0.0, 0.0], [0.0, 0.0, 0.5]]
             .map(|color| colors(&opacity, color));
         let half = opacity.map(|_, _, made| made.fill(32768));
-        let strength = LightStrength { voxels: half, full: 0.5 };
+        let strength = LightStrength { voxels: half, full: 0.5, buffer: None };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
         let gel = Relit { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
         let beta = 32768.0 / 65535.0 * 0.5;

@@ -1,4 +1,4 @@
-//! `light` and what it may carry: `casts_shadow`.
+//! `light` and what it may carry: `casts_shadow` and `shaft`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -56,6 +56,27 @@ impl Default for CastsShadow {
     fn default() -> Self {
         Self { bias_voxels: 2.0, k1: 1.0, k2: 0.0 }
     }
+}
+
+/// Dust that answers this light, everywhere the same: "sculpted shafts of light passing through a dust-filled room"
+/// (paper §8). Shafts take their shape from the light's slide ([`Projects`](super::Projects)) and from shadows.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Shaft {
+    /// Opacity of the dust where the light's strength is 1: 0..=1 per opacity unit; weaker light shows less dust.
+    #[schemars(range(min = 0, max = 1))]
+    pub opacity: f32,
+    /// Colour of the lit dust; default: the light's own colour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+    /// Whether the volume weakens the beam: that asks for the 3D light-strength buffer. `false`: the beam passes through
+    /// the volume without attenuation, and is drawn without a shadow pass and without a 3D buffer.
+    #[serde(default = "yes")]
+    pub attenuated: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn one() -> f32 {

@@ -17,7 +17,7 @@ mod volume;
 pub use classify::{Classify, Contour, Level, Material as ClassifyMaterial, Tissue, TransferPoint};
 pub use clip::Clip;
 pub use color::Color;
-pub use light::{CastsShadow, Light, Observer, Toward};
+pub use light::{CastsShadow, Light, Observer, Shaft, Toward};
 pub use material::{DepthCue, Material};
 pub use mesh::{Ellipsoid, Mesh, Prism};
 pub use polygon::{Matte, Polygon, Surface, Voxelize};

@@ -32,7 +32,8 @@ pub struct Textured {
     /// World points of the texture's top left, top right and bottom left corners; default: the polygon's first, second and last vertex.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub corners: Option<[[f64; 3]; 3]>,
-    /// How many times the texture is laid across and down between those corners, each above 0.
+    /// How many times the texture is laid across and down between those corners, each above 0. Only the first of them
+    /// holds the texture where it does not repeat.
     #[serde(default = "once")]
     pub repeats: [f64; 2],
     /// What lies outside the texture.
@@ -48,8 +49,8 @@ pub struct Textured {
 pub struct TexturedBy {
     /// As stated.
     pub textured: Textured,
-    /// The texture's texels.
-    pub picture: Picture,
+    /// The texture, ready for lookups.
+    pub texture: crate::texture::Texture,
     /// World points of the texture's top left, top right and bottom left corners; never on one line.
     pub corners: [DVec3; 3],
 }
@@ -71,8 +72,10 @@ pub enum Wrap {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum TextureFilter {
-    /// Elliptical weighted average over the exact footprint (Heckbert 1989).
+    /// The mean over exactly the footprint (Feibush, Levoy and Cook 1980): the reference.
     #[default]
+    Area,
+    /// Elliptical weighted average (Heckbert 1989): softer, and no moiré even where the exact mean lets some through.
     Ellipse,
     /// Two levels of a mip map, each bilinear.
     Trilinear,

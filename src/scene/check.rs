@@ -2,7 +2,7 @@
 
 use crate::components::{
     CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon, Projects,
-    Sampling, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
+    Sampling, Shaft, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
 };
 
 /// What is wrong with a component: the dotted path inside it, and the rest of a sentence that the component's key begins.
@@ -30,6 +30,7 @@ impl Check for Voxelize {}
 impl Check for CastsShadow {}
 impl Check for View {}
 impl Check for DepthCue {}
+impl Check for Shaft {}
 impl Check for Polygon {}
 
 impl Check for Volume {

@@ -1,7 +1,7 @@
 //! The lights of a scene, and the head light of a scene that states none.
 
 use super::load::Loading;
-use crate::components::{CastsShadow, Color, Light, Observer, Projects, Toward};
+use crate::components::{CastsShadow, Color, Light, Observer, Projects, Shaft, Toward};
 use crate::error::Error;
 use crate::face::Extent;
 use crate::grid::Painted;
@@ -16,8 +16,14 @@ pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Erro
             falloff(k1, k2, extent)
                 .map_err(|problem| loading.error(entry, "casts_shadow", "k2", problem))?;
         }
+        let shaft = loading.get::<Shaft>(entry);
+        if shaft.is_some_and(|shaft| shaft.attenuated) && shadow.is_none() {
+            let problem = "a beam that the volume weakens needs `casts_shadow` on its light; state it, or `attenuated = false`";
+            return Err(loading.error(entry, "shaft", "attenuated", problem));
+        }
         let keys = [
             ("casts_shadow", shadow.is_some()),
+            ("shaft", shaft.is_some()),
             ("projects", loading.get::<Projects>(entry).is_some()),
         ];
         for (key, _) in keys.into_iter().filter(|(_, stated)| *stated && volumes.is_empty()) {

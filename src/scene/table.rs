@@ -13,7 +13,7 @@ use super::error::Fault;
 use super::grammar;
 use crate::components::{
     CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon, Projects,
-    Sampling, Surface, Texture, Textured, View, Volume, Voxelize,
+    Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
 };
 
 /// One component of the table.
@@ -27,7 +27,7 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 16] = [
+pub(super) static COMPONENTS: [Row; 17] = [
     row::<Volume>("volume", &[]),
     row::<Classify<Level>>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
@@ -40,6 +40,7 @@ pub(super) static COMPONENTS: [Row; 16] = [
     row::<Light>("light", &[]),
     row::<CastsShadow>("casts_shadow", &["light"]),
     row::<Projects>("projects", &["light"]),
+    row::<Shaft>("shaft", &["light"]),
     row::<Texture>("texture", &[]),
     row::<View>("view", &[]),
     row::<Sampling>("sampling", &["view"]),

@@ -10,6 +10,7 @@ use crate::formats::read_picture;
 use crate::grid::Grid;
 use crate::phantom;
 use crate::picture::Picture;
+use crate::texture;
 
 /// Reads every texture, then resolves `textured` and `projects`.
 pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Error> {
@@ -26,7 +27,8 @@ pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Erro
             if loading.get::<Voxelize>(entry).is_some() {
                 loading.warn(entry, "its texture is not shown, since `voxelize` draws it without the hybrid ray tracer; take one of the two away");
             }
-            loading.add(entry, (TexturedBy { textured, picture, corners },));
+            let texture = texture::Texture::new(&picture, textured.wrap, textured.filter);
+            loading.add(entry, (TexturedBy { textured, texture, corners },));
         }
     }
     for entry in loading.nouns(&["light"]) {

@@ -33,6 +33,14 @@ pub struct Texture {
     filter: TextureFilter,
 }
 
+impl PartialEq for Texture {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.levels, &other.levels)
+            && self.wrap == other.wrap
+            && self.filter == other.filter
+    }
+}
+
 impl Texture {
     /// Takes the texels of `picture` and averages them into coarser levels, down to a single texel.
     ///
@@ -68,6 +76,7 @@ impl Texture {
     pub fn filtered(&self, uv: DVec2, footprint: &Footprint) -> Vec4 {
         let uv = self.placed(uv);
         match self.filter {
+            TextureFilter::Area => area::average(&self.levels, self.wrap, uv, footprint),
             TextureFilter::Ellipse => ellipse::average(&self.levels, self.wrap, uv, footprint),
             TextureFilter::Trilinear => bilinear::trilinear(&self.levels, self.wrap, uv, footprint),
             TextureFilter::Bilinear => bilinear::bilinear(&self.levels[0], self.wrap, uv),

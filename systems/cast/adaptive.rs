@@ -9,7 +9,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::band::{Band, cut};
-use super::beams::Beams;
+use super::beams::{Beams, SIDE};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
@@ -26,18 +26,23 @@ pub struct Ray {
     pub geometric: [f32; 4],
 }
 
-/// Casts the ray through window position (pixels) in the beam of a number.
+/// Where a ray is cast.
+#[derive(Debug, Clone, Copy)]
+pub struct Aim {
+    /// The number of its beam.
+    pub beam: usize,
+    /// Its window position, pixels.
+    pub window: DVec2,
+    /// The distance to the next ray of its level, in positions: what it stands for.
+    pub step: usize,
+}
+
+/// Casts rays.
 pub trait Caster: Sync {
     /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
     type Scratch: Default;
     /// Casts one ray.
-    fn cast(
-        &self,
-        beam: usize,
-        window: DVec2,
-        scratch: &mut Self::Scratch,
-        counts: &mut Counts,
-    ) -> Ray;
+    fn cast(&self, aim: Aim, scratch: &mut Self::Scratch, counts: &mut Counts) -> Ray;
 }
 
 /// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
@@ -171,11 +176,9 @@ impl<'a, C: Caster> Refinement<'a, C> {
                 count += 1;
             }
         }
-        let blocks = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
-        for colors in self.edges.iter_mut().flatten() {
-            colors.fine.clone_from(&blocks);
+        for colors in std::iter::once(&mut self.full).chain(self.edges.iter_mut().flatten()) {
+            colors.fine = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
         }
-        self.full.fine = blocks;
     }
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
@@ -253,15 +256,16 @@ fn cast_band<C: Caster>(
     caster: &C,
 ) {
     let mut scratch = C::Scratch::default();
+    let mut positions = Vec::with_capacity(SIDE * SIDE);
     let shift = step.trailing_zeros();
     for x in 0..beams.counts[0] {
         let beam = band.number * beams.counts[0] + x;
-        for [i, j] in band.positions(&beams.layout, x, step) {
-            if wanted(i >> shift, j >> shift) {
-                let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
-                let ray = caster.cast(beam, window, &mut scratch, &mut band.counts);
-                band.write(&beams.layout, i, j, &ray);
-            }
+        band.positions(&beams.layout, x, step, &mut positions);
+        for &[i, j] in positions.iter().filter(|[i, j]| wanted(i >> shift, j >> shift)) {
+            let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
+            let aim = Aim { beam, window, step };
+            let ray = caster.cast(aim, &mut scratch, &mut band.counts);
+            band.write(&beams.layout, i, j, &ray);
         }
     }
 }

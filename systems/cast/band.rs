@@ -60,21 +60,24 @@ impl Part<'_> {
 }
 
 impl Band<'_> {
-    /// The positions of the lattice of `step` positions in beam `x` of the band, row by row; those between the blocks'
-    /// first positions in opened blocks alone.
-    pub fn positions(&self, layout: &Layout, x: usize, step: usize) -> Vec<[usize; 2]> {
-        let [across, down] = layout.positions();
-        let lattice = |first: usize, count: usize| {
-            (first.next_multiple_of(step)..(first + SIDE).min(count)).step_by(step)
-        };
-        let (first, row) = (self.number * SIDE, layout.blocks()[0]);
-        let is_opened = |i: usize, j: usize| {
-            step >= POSITIONS || self.opened[(j - first) / POSITIONS * row + i / POSITIONS] != NONE
-        };
-        lattice(first, down)
-            .flat_map(|j| lattice(x * SIDE, across).map(move |i| [i, j]))
-            .filter(|&[i, j]| is_opened(i, j))
-            .collect()
+    /// Puts into `into` the positions of the lattice of `step` positions in beam `x` of the band, block by block or row by
+    /// row; those between the blocks' first positions in opened blocks alone.
+    pub fn positions(&self, layout: &Layout, x: usize, step: usize, into: &mut Vec<[usize; 2]>) {
+        into.clear();
+        let ([across, down], first) = (layout.positions(), [x * SIDE, self.number * SIDE]);
+        let end = [(first[0] + SIDE).min(across), (first[1] + SIDE).min(down)];
+        if step >= POSITIONS {
+            return lattice(first, end, step, into);
+        }
+        let row = layout.blocks()[0];
+        for j in (first[1]..end[1]).step_by(POSITIONS) {
+            for i in (first[0]..end[0]).step_by(POSITIONS) {
+                if self.opened[(j - first[1]) / POSITIONS * row + i / POSITIONS] != NONE {
+                    let end = [(i + POSITIONS).min(across), (j + POSITIONS).min(down)];
+                    lattice([i, j], end, step, into);
+                }
+            }
+        }
     }
 
     /// Keeps what a ray at a position of the band saw.
@@ -89,5 +92,13 @@ impl Band<'_> {
         }
         self.cast[block] |= 1 << within;
         self.counts.rays += 1;
+    }
+}
+
+/// The positions from `first` to before `end` that are multiples of `step`, row by row.
+fn lattice(first: [usize; 2], end: [usize; 2], step: usize, into: &mut Vec<[usize; 2]>) {
+    let from = first.map(|n| n.next_multiple_of(step));
+    for j in (from[1]..end[1]).step_by(step) {
+        into.extend((from[0]..end[0]).step_by(step).map(|i| [i, j]));
     }
 }

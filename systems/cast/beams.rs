@@ -1,17 +1,21 @@
 //! Beams: small tiles of the picture, and where along each its rays can meet gel or polygons at all.
 //!
-//! Every occupied brick is splatted into the beams that it may be seen through; a ray starts where the first of its
-//! beam's bricks starts and ends where the last one ends. Lossless: outside that interval there is no interesting cell.
+//! Every occupied cell of the pyramid's level 2 (4³ voxels) is splatted into the beams that it may be seen through; a
+//! ray starts where the first of its beam's starts and ends where the last one ends. Lossless: outside that interval
+//! there is no interesting cell.
 
 use glam::{DVec2, DVec3};
 
 use crate::gel::{CELLS, EMPTY, Texel, Texels};
 use crate::grid::Grid;
+use crate::pyramid::Pyramid;
 use crate::ray::Camera;
 use crate::samples::{Layout, POSITIONS};
 
 /// Pixels along a beam's side.
 const PIXELS: usize = 4;
+/// Cells along half a brick's edge: a cell of the pyramid's level 2.
+const HALF: usize = CELLS / 2;
 /// Positions of the sample array along a beam's side.
 pub const SIDE: usize = PIXELS * POSITIONS;
 
@@ -50,6 +54,7 @@ impl Beams {
     pub fn occupied<T: Texel>(
         &self,
         gel: &Texels<T>,
+        pyramid: &Pyramid,
         grid: &Grid,
         camera: &Camera,
         distance: f64,
@@ -57,21 +62,36 @@ impl Beams {
         let mut ranges = vec![[i64::MAX, i64::MIN]; self.counts[0] * self.counts[1]];
         let box_of = BoxOf::new(grid, camera);
         let [nx, ny, _] = gel.counts();
-        let stored = gel.table().iter().enumerate().filter(|(_, entry)| **entry != EMPTY);
-        for (at, _) in stored {
-            let brick = [at % nx, at / nx % ny, at / (nx * ny)];
-            let (low, high) = box_of.brick(brick, grid.size);
-            let first = (low.z / distance - 0.5).floor() as i64 - 1;
-            let end = (high.z / distance - 0.5).ceil() as i64 + 2;
-            let [across, down] = self.around(low.truncate(), high.truncate());
-            for y in down {
-                for range in &mut ranges[y * self.counts[0]..][across.clone()] {
-                    *range = [range[0].min(first), range[1].max(end)];
-                }
+        for (at, &stored) in gel.table().iter().enumerate().filter(|(_, entry)| **entry != EMPTY) {
+            let brick = [at % nx, at / nx % ny, at / (nx * ny)].map(|b| b * CELLS);
+            for half in occupied_halves(pyramid.cells(stored)) {
+                let first = std::array::from_fn(|axis| brick[axis] + half[axis] * HALF);
+                let (low, high) = box_of.cells(first, grid.size);
+                self.splat(&mut ranges, low, high, distance);
             }
         }
         ranges
     }
+
+    /// Widens the ranges of the beams that a box in window coordinates and depth may be seen through.
+    fn splat(&self, ranges: &mut Occupied, low: DVec3, high: DVec3, distance: f64) {
+        let first = (low.z / distance - 0.5).floor() as i64 - 1;
+        let end = (high.z / distance - 0.5).ceil() as i64 + 2;
+        let [across, down] = self.around(low.truncate(), high.truncate());
+        for y in down {
+            for range in &mut ranges[y * self.counts[0]..][across.clone()] {
+                *range = [range[0].min(first), range[1].max(end)];
+            }
+        }
+    }
+}
+
+/// Which eighths of a brick hold an interesting cell, 0 or 1 along each axis.
+fn occupied_halves(cells: &[u64; CELLS]) -> impl Iterator<Item = [usize; 3]> {
+    (0..8_usize).map(|n| [n % 2, n / 2 % 2, n / 4]).filter(|&[x, y, z]| {
+        let four = (0x0f0f_0f0f_u64 << (HALF * x)) << (CELLS * HALF * y);
+        cells[HALF * z..][..HALF].iter().any(|word| word & four != 0)
+    })
 }
 
 /// Bounding boxes in window coordinates (pixels) and depth (world units) of boxes in index space.
@@ -90,10 +110,11 @@ impl BoxOf {
         Self { origin, axes: DVec3::AXES.map(|axis| seen(axis) - origin) }
     }
 
-    fn brick(&self, brick: [usize; 3], size: [usize; 3]) -> (DVec3, DVec3) {
+    /// The box of 4³ cells from `first` on, cut off where the grid ends.
+    fn cells(&self, first: [usize; 3], size: [usize; 3]) -> (DVec3, DVec3) {
         let (mut low, mut high) = (self.origin, self.origin);
-        for ((axis, first), n) in self.axes.iter().zip(brick.map(|b| b * CELLS)).zip(size) {
-            let ends = [*axis * first as f64, *axis * (first + CELLS).min(n - 1) as f64];
+        for ((axis, first), n) in self.axes.iter().zip(first).zip(size) {
+            let ends = [*axis * first as f64, *axis * (first + HALF).min(n - 1) as f64];
             low += ends[0].min(ends[1]);
             high += ends[0].max(ends[1]);
         }

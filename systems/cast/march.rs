@@ -10,11 +10,11 @@ use crate::samples::Counts;
 /// A polygon that a ray meets, shaded.
 #[derive(Debug, Clone, Copy)]
 pub struct Shaded {
-    /// Colour, not associated: textured, shadowed, cued.
+    /// Associated colour: textured, shadowed, cued.
     pub color: DVec3,
     /// α_P, textured.
     pub opacity: f64,
-    /// The colour that C_A and C_G see: neither textured nor shadowed.
+    /// The associated colour that C_A and C_G see: neither textured nor shadowed.
     pub plain_color: DVec3,
     /// The opacity that C_A and C_G see.
     pub plain_opacity: f64,
@@ -66,10 +66,10 @@ impl Pair<'_> {
     fn polygon(&mut self, met: &Shaded) {
         if self.full.through > self.stop {
             self.counts.polygon_hits += 1;
-            self.full.under(met.color * met.opacity, met.opacity);
+            self.full.under(met.color, met.opacity);
         }
         self.covered += self.attenuated.through * met.plain_opacity;
-        self.attenuated.under(met.plain_color * met.plain_opacity, met.plain_opacity);
+        self.attenuated.under(met.plain_color, met.plain_opacity);
     }
 }
 
@@ -153,7 +153,7 @@ pub fn geometric(hits: &[Hit], shade: impl Fn(&Hit) -> Shaded, stop: f64) -> [f3
             break;
         }
         let met = shade(hit);
-        ray.under(met.plain_color * met.plain_opacity, met.plain_opacity);
+        ray.under(met.plain_color, met.plain_opacity);
     }
     ray.rgba(0.0)
 }

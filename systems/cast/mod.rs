@@ -9,6 +9,8 @@ mod band;
 mod beams;
 mod march;
 mod polygons;
+mod shaft;
+mod texture;
 mod volume;
 
 use std::sync::Arc;
@@ -16,20 +18,24 @@ use std::sync::Arc;
 use glam::DVec2;
 use hecs::{Entity, World};
 
-use crate::components::{DepthCue, Order, Sampling, Surface, View, Voxelize};
+use crate::components::{
+    DepthCue, Light, Order, ProjectedBy, Sampling, Shaft, Surface, TexturedBy, View, Voxelize,
+};
 use crate::error::Error;
 use crate::face::{Extent, Faces};
 use crate::gel::{Gel as GelBricks, Texel, Texels};
 use crate::grid::Grid;
-use crate::products::{Gel, Pyramid, Samples};
+use crate::products::{Gel, LightStrength, Pyramid, Samples};
 use crate::ray::{Camera, Walk};
 use crate::samples::{Counts, Layout, SampleArray};
 use crate::schedule::{Kind, Outbox, Plan, System, Watch};
 use crate::shading::Lamps;
-use adaptive::{Caster, Ray, Refinement};
+use adaptive::{Aim, Caster, Ray, Refinement};
 use beams::{Beams, Occupied};
 use march::Hit;
 use polygons::{Look, Polygons, Seen};
+use shaft::Dust;
+use texture::Laid;
 use volume::{Cue, Cursor, Volume};
 
 /// Casts the rays of every view.
@@ -43,8 +49,19 @@ struct Inputs {
     extent: Extent,
     cue: Option<DepthCue>,
     volume: Option<Medium>,
-    polygons: Vec<(Faces, Surface)>,
+    polygons: Vec<Shown>,
     lamps: Lamps,
+    /// β of each light of `lamps` that casts a shadow.
+    strengths: Vec<Option<LightStrength>>,
+    shafts: Vec<shaft::Stated>,
+}
+
+/// Faces that stay polygons, and how they look.
+#[derive(PartialEq)]
+struct Shown {
+    faces: Faces,
+    surface: Surface,
+    textured: Option<TexturedBy>,
 }
 
 /// The gel and where it is.
@@ -62,7 +79,8 @@ impl System for Cast {
     #[rustfmt::skip]
     const READS: &'static [Kind] = &[
         Kind::View, Kind::Sampling, Kind::Extent, Kind::DepthCue, Kind::Grid, Kind::OpacityUnit, Kind::Gel,
-        Kind::Pyramid, Kind::Faces, Kind::Surface, Kind::Voxelize, Kind::Order, Kind::Light, Kind::CastsShadow,
+        Kind::Pyramid, Kind::Faces, Kind::Surface, Kind::Voxelize, Kind::Textured, Kind::Order, Kind::Light,
+        Kind::CastsShadow, Kind::LightStrength, Kind::Shaft, Kind::Projects,
     ];
 
     fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
@@ -82,8 +100,10 @@ impl System for Cast {
                 extent: *extent,
                 cue: cue.copied(),
                 volume: medium(world),
+                strengths: strengths(world, &lamps),
                 polygons,
                 lamps,
+                shafts: shafts(world),
             };
             out.derive(entity, inputs, |inputs| cast(inputs, &camera, watch))?;
         }
@@ -101,12 +121,38 @@ impl System for Cast {
 }
 
 /// The polygons that stay polygons, in the order of the scene.
-fn hybrid_polygons(world: &World) -> Vec<(Faces, Surface)> {
-    let mut query = world.query::<(&Order, &Faces, &Surface, Option<&Voxelize>)>();
-    let mut polygons: Vec<_> =
-        query.iter().filter(|(_, _, _, voxelize)| voxelize.is_none()).collect();
+fn hybrid_polygons(world: &World) -> Vec<Shown> {
+    let mut query =
+        world.query::<(&Order, &Faces, &Surface, Option<&TexturedBy>)>().without::<&Voxelize>();
+    let mut polygons: Vec<_> = query.iter().collect();
     polygons.sort_by_key(|(order, ..)| **order);
-    polygons.into_iter().map(|(_, faces, surface, _)| (faces.clone(), surface.clone())).collect()
+    let shown = |(_, faces, surface, textured): (_, &Faces, &Surface, Option<&TexturedBy>)| Shown {
+        faces: faces.clone(),
+        surface: surface.clone(),
+        textured: textured.cloned(),
+    };
+    polygons.into_iter().map(shown).collect()
+}
+
+/// The strengths of the lights that cast shadows.
+fn strengths(world: &World, lamps: &Lamps) -> Vec<Option<LightStrength>> {
+    let strength = |light: Entity| world.get::<&LightStrength>(light).ok().map(|s| (*s).clone());
+    lamps.shadowed.iter().map(|(light, _)| strength(*light)).collect()
+}
+
+/// The shafts of light, in the order of the scene.
+fn shafts(world: &World) -> Vec<shaft::Stated> {
+    type Beam<'a> = (&'a Shaft, &'a Light, Option<&'a ProjectedBy>, Option<&'a LightStrength>);
+    let mut query = world.query::<(&Order, Beam<'_>)>();
+    let mut shafts: Vec<_> = query.iter().collect();
+    shafts.sort_by_key(|(order, _)| **order);
+    let stated = |(_, (shaft, light, projected, strength)): (_, Beam<'_>)| shaft::Stated {
+        shaft: *shaft,
+        light: light.clone(),
+        projected: projected.cloned(),
+        strength: strength.filter(|_| shaft.attenuated).cloned(),
+    };
+    shafts.into_iter().map(stated).collect()
 }
 
 fn medium(world: &World) -> Option<Medium> {
@@ -133,12 +179,13 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
         let near = camera.project(inputs.extent.center()).1 - inputs.extent.radius();
         Cue { k1: cue.k1, k2: cue.k2, near }
     });
-    let seen = inputs.polygons.iter().flat_map(|(faces, surface)| {
-        faces.0.iter().filter_map(|face| {
-            Seen::new(face, camera, Look::new(surface, face.normal, &inputs.lamps))
+    let seen = inputs.polygons.iter().flat_map(|shown| {
+        shown.faces.0.iter().filter_map(|face| {
+            let laid = shown.textured.as_ref().and_then(|by| Laid::new(by, face, camera));
+            Seen::new(face, camera, Look::new(&shown.surface, face.normal, &inputs.lamps, laid))
         })
     });
-    let polygons = Polygons::new(seen.collect(), &beams, cue);
+    let polygons = Polygons::new(seen.collect(), &beams, *camera, cue, inputs.strengths.clone());
     let rays = Rays { camera, polygons, stop: f64::from(inputs.sampling.stop_at), cue };
     let Some(medium) = &inputs.volume else {
         return rays.refine::<[f32; 4]>(inputs, layout, None, watch);
@@ -183,9 +230,13 @@ impl<'a> Rays<'a> {
         let ratio = distance / medium.unit;
         let ratio = if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio };
         let pyramid = medium.pyramid.as_ref();
-        let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue };
-        let occupied =
-            pyramid.map(|_| Beams::new(layout).occupied(gel, &medium.grid, self.camera, distance));
+        let dust = Dust::new(&inputs.shafts, self.camera, distance)
+            .map_err(|problem| Error::entity("shaft", problem))?;
+        let clear = dust.is_none();
+        let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue, dust };
+        let occupied = pyramid.filter(|_| clear).map(|pyramid| {
+            Beams::new(layout).occupied(gel, pyramid, &medium.grid, self.camera, distance)
+        });
         self.refine(inputs, layout, Some((volume, occupied)), watch)
     }
 
@@ -226,12 +277,12 @@ struct BeamCaster<'a, T> {
 impl<T: Texel> Caster for BeamCaster<'_, T> {
     type Scratch = Vec<Hit>;
 
-    fn cast(&self, beam: usize, window: DVec2, hits: &mut Vec<Hit>, counts: &mut Counts) -> Ray {
+    fn cast(&self, aim: Aim, hits: &mut Vec<Hit>, counts: &mut Counts) -> Ray {
         let Rays { polygons, stop, .. } = &self.rays;
         if !polygons.is_empty() {
-            polygons.meet(beam, window, hits);
+            polygons.meet(aim.beam, aim.window, hits);
         }
-        let mut cursor = self.cursor(beam, window);
+        let mut cursor = self.cursor(aim.beam, aim.window);
         if hits.is_empty() {
             let full = self.volume.as_ref().map_or_else(
                 || [0.0; 4],
@@ -239,7 +290,7 @@ impl<T: Texel> Caster for BeamCaster<'_, T> {
             );
             return Ray { full, ..Ray::default() };
         }
-        let shade = |hit: &Hit| polygons.shade(hit);
+        let shade = |hit: &Hit| polygons.shade(hit, aim);
         let colors = match &self.volume {
             Some(volume) => volume.march_through(&mut cursor, hits, shade, *stop, counts),
             None => march::polygons_alone(hits, shade, *stop, counts),
@@ -258,7 +309,8 @@ impl<T: Texel> BeamCaster<'_, T> {
         if range[0] >= range[1] {
             return Cursor::NOWHERE;
         }
-        let samples = volume.walk.enter(self.rays.camera.origin(window));
-        samples.map_or(Cursor::NOWHERE, |samples| Cursor::new(&volume.walk, samples, range))
+        let origin = self.rays.camera.origin(window);
+        let samples = volume.walk.enter(origin);
+        samples.map_or(Cursor::NOWHERE, |samples| Cursor::new(&volume.walk, samples, range, origin))
     }
 }

@@ -5,14 +5,16 @@
 //! an edge is computed from the edge's ends in one order, whichever polygon asks: an edge that two polygons share is
 //! met exactly once. A polygon in the plane of the rays is missed.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3, Vec4};
 
-use super::adaptive::Outlines;
+use super::adaptive::{Aim, Outlines};
 use super::beams::Beams;
 use super::march::{Hit, Shaded};
+use super::texture::Laid;
 use super::volume::Cue;
 use crate::components::Surface;
 use crate::face::Face;
+use crate::products::LightStrength;
 use crate::ray::Camera;
 use crate::samples::{Layout, POSITIONS};
 use crate::shading::{Lamps, Reflectance};
@@ -30,7 +32,6 @@ pub struct Seen {
 
 /// How a polygon of one orientation and surface looks under the lights of a scene: constant over it, but for the cue,
 /// textures and shadows.
-#[derive(Debug, Clone)]
 pub struct Look {
     /// α_P.
     opacity: f64,
@@ -40,11 +41,13 @@ pub struct Look {
     reflected: DVec3,
     /// What it reflects of each light that does, unshadowed.
     shadowed: Vec<DVec3>,
+    /// Its texture.
+    laid: Option<Laid>,
 }
 
 impl Look {
-    /// The look of a face of unit normal `normal`.
-    pub fn new(surface: &Surface, normal: DVec3, lamps: &Lamps) -> Self {
+    /// The look of a face of unit normal `normal`, with the texture that is laid on it.
+    pub fn new(surface: &Surface, normal: DVec3, lamps: &Lamps, laid: Option<Laid>) -> Self {
         let (how, normal): (Reflectance, Vec3) = (surface.into(), normal.as_vec3());
         let color = surface.color.0;
         let reflected =
@@ -57,6 +60,7 @@ impl Look {
             shadowed: shadowed
                 .map(|(_, lamp)| lamp.reflected(color, normal, &how).as_dvec3())
                 .collect(),
+            laid,
         }
     }
 }
@@ -122,11 +126,20 @@ pub struct Polygons {
     starts: Vec<u32>,
     binned: Vec<u32>,
     cue: Option<Cue>,
+    camera: Camera,
+    /// β of each light that casts a shadow, where something is in its way.
+    strengths: Vec<Option<LightStrength>>,
 }
 
 impl Polygons {
-    /// Sorts the polygons into beams.
-    pub fn new(faces: Vec<Seen>, beams: &Beams, cue: Option<Cue>) -> Self {
+    /// Sorts the polygons into beams. `strengths` are those of the lights that their looks call shadowed.
+    pub fn new(
+        faces: Vec<Seen>,
+        beams: &Beams,
+        camera: Camera,
+        cue: Option<Cue>,
+        strengths: Vec<Option<LightStrength>>,
+    ) -> Self {
         let around = |face: &Seen| beams.around(face.low, face.high);
         let mut starts = vec![0_u32; beams.counts[0] * beams.counts[1] + 1];
         let each = |[across, down]: [std::ops::Range<usize>; 2]| {
@@ -145,7 +158,7 @@ impl Polygons {
                 next[beam] += 1;
             }
         }
-        Self { faces, starts, binned, cue }
+        Self { faces, starts, binned, cue, camera, strengths }
     }
 
     /// Whether there is no polygon.
@@ -166,14 +179,43 @@ impl Polygons {
         hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.face.cmp(&b.face)));
     }
 
-    /// Shades a hit.
-    pub fn shade(&self, hit: &Hit) -> Shaded {
+    /// Shades a hit of the ray at `aim`.
+    pub fn shade(&self, hit: &Hit, aim: Aim) -> Shaded {
         let look = &self.faces[hit.face as usize].look;
         let cue = self.cue.map_or(1.0, |cue| cue.factor(hit.depth));
-        let unshadowed = look.reflected + look.shadowed.iter().sum::<DVec3>();
-        let color = look.ambient + unshadowed * cue;
-        let opacity = look.opacity;
-        Shaded { color, opacity, plain_color: color, plain_opacity: opacity }
+        let plain = look.ambient + (look.reflected + look.shadowed.iter().sum::<DVec3>()) * cue;
+        let (plain_color, plain_opacity) = (plain * look.opacity, look.opacity);
+        if look.laid.is_none() && self.strengths.iter().all(Option::is_none) {
+            return Shaded {
+                color: plain_color,
+                opacity: plain_opacity,
+                plain_color,
+                plain_opacity,
+            };
+        }
+        let world = self.camera.origin(aim.window) + self.camera.forward * hit.depth;
+        let lit = look.ambient + (look.reflected + self.shadowed(look, world)) * cue;
+        let texel =
+            look.laid.as_ref().map_or(Vec4::ONE, |laid| laid.at(world, aim.step)).as_dvec4();
+        Shaded {
+            color: lit * texel.truncate() * look.opacity,
+            opacity: look.opacity * texel.w,
+            plain_color,
+            plain_opacity,
+        }
+    }
+
+    /// What a face reflects at a world point of the lights that cast shadows: Σ c_i β_i (equation 4).
+    fn shadowed(&self, look: &Look, world: DVec3) -> DVec3 {
+        let beta = |strength: &Option<LightStrength>| {
+            let buffer = strength.as_ref().and_then(|strength| strength.buffer.as_ref());
+            buffer.map_or(1.0, |buffer| f64::from(buffer.biased(world)))
+        };
+        look.shadowed
+            .iter()
+            .zip(&self.strengths)
+            .map(|(color, strength)| *color * beta(strength))
+            .sum()
     }
 
     /// Which squares of `side` positions the outlines cross.

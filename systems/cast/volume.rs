@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3, Vec4};
 
+use super::shaft::Dust;
 use crate::composite::{Gathered, recolor, thicken};
 use crate::gel::{CELLS, EMPTY, Texel, Texels};
 use crate::pyramid::{Pyramid, empty_level_within};
@@ -43,6 +44,8 @@ pub struct Volume<'a, T> {
     pub distance: f64,
     /// The depth cue, if stated.
     pub cue: Option<Cue>,
+    /// Dust in shafts of light, all over the domain.
+    pub dust: Option<Dust>,
 }
 
 /// How far one ray is: the sample to come, where it is, and where the ray ends.
@@ -51,18 +54,21 @@ pub struct Cursor {
     k: i64,
     end: i64,
     at: [i64; 3],
+    /// The ray's world point at depth 0.
+    origin: DVec3,
 }
 
 impl Cursor {
-    /// At the first of some samples, restricted to sample numbers `range`.
-    pub fn new(walk: &Walk, samples: Samples, range: [i64; 2]) -> Self {
-        let mut cursor = Self { k: samples.first, end: samples.end.min(range[1]), at: samples.at };
-        cursor.advance(walk, (range[0] - samples.first).max(0));
+    /// At the first of some samples of the ray through `origin`, restricted to sample numbers `range`.
+    pub fn new(walk: &Walk, samples: Samples, range: [i64; 2], origin: DVec3) -> Self {
+        let end = samples.end.min(range[1]);
+        let mut cursor = Self { k: samples.first, end, at: samples.at, origin };
+        cursor.advance(walk, range[0].saturating_sub(samples.first).max(0));
         cursor
     }
 
     /// A ray that meets no gel.
-    pub const NOWHERE: Self = Self { k: 0, end: 0, at: [0; 3] };
+    pub const NOWHERE: Self = Self { k: 0, end: 0, at: [0; 3], origin: DVec3::ZERO };
 
     #[inline]
     pub fn advance(&mut self, walk: &Walk, steps: i64) {
@@ -86,31 +92,21 @@ impl Cursor {
 }
 
 impl<T: Texel> Volume<'_, T> {
-    /// Goes on to the next sample before number `until` that lies in an interesting cell, and takes it: its depth's
-    /// number, and associated colour and opacity per opacity unit. The cursor stays on it.
+    /// Goes on to the next sample before number `until` that lies in an interesting cell, and takes it: associated colour
+    /// and opacity per opacity unit. The cursor stays on it.
     #[inline]
     pub fn next(&self, cursor: &mut Cursor, until: i64, counts: &mut Counts) -> Option<Vec4> {
-        let counts_of_bricks = self.gel.counts();
+        if let Some(dust) = &self.dust {
+            return self.next_dusty(dust, cursor, until, counts);
+        }
         let until = until.min(cursor.end);
         while cursor.k < until {
             let cell = cursor.cell();
-            let brick = cell.map(|c| c / CELLS);
-            let entry =
-                (brick[2] * counts_of_bricks[1] + brick[1]) * counts_of_bricks[0] + brick[0];
+            let entry = self.entry(cell);
             let stored = self.gel.table()[entry];
-            let empty = match self.pyramid {
-                Some(pyramid) if stored == EMPTY => Some(pyramid.empty_level(entry)),
-                Some(pyramid) => {
-                    let cells = pyramid.cells(stored);
-                    let bit =
-                        cells[cell[2] % CELLS] >> ((cell[1] % CELLS) * CELLS + cell[0] % CELLS) & 1;
-                    (bit == 0).then(|| empty_level_within(cells, cell))
-                }
-                None => None,
-            };
-            if let Some(level) = empty {
+            if let Some(level) = self.empty_level(entry, stored, cell) {
                 counts.cells_skipped += 1;
-                cursor.advance(&self.walk, self.leap(cursor, cell, level));
+                cursor.advance(&self.walk, self.leap(cursor, level));
                 continue;
             }
             counts.samples += 1;
@@ -120,6 +116,48 @@ impl<T: Texel> Volume<'_, T> {
             cursor.advance(&self.walk, 1);
         }
         None
+    }
+
+    /// The next sample in which there is gel or dust. Dust may be anywhere: no sample is stepped over.
+    fn next_dusty(
+        &self,
+        dust: &Dust,
+        cursor: &mut Cursor,
+        until: i64,
+        counts: &mut Counts,
+    ) -> Option<Vec4> {
+        while cursor.k < until.min(cursor.end) {
+            let cell = cursor.cell();
+            let stored = self.gel.table()[self.entry(cell)];
+            let gel = if stored == EMPTY { Vec4::ZERO } else { self.sample(stored, cell, cursor) };
+            counts.samples += 1;
+            let sample = dust.join(gel, cursor.origin, cursor.k);
+            if sample.w > 0.0 {
+                return Some(sample);
+            }
+            cursor.advance(&self.walk, 1);
+        }
+        None
+    }
+
+    /// The place of a cell's brick in the gel's table.
+    #[inline]
+    fn entry(&self, cell: [usize; 3]) -> usize {
+        let [across, down, _] = self.gel.counts();
+        let brick = cell.map(|c| c / CELLS);
+        (brick[2] * down + brick[1]) * across + brick[0]
+    }
+
+    /// The highest level of the pyramid whose cell around `cell` is known to be empty, if its level-0 cell is.
+    #[inline]
+    fn empty_level(&self, entry: usize, stored: u32, cell: [usize; 3]) -> Option<u32> {
+        let pyramid = self.pyramid?;
+        if stored == EMPTY {
+            return Some(pyramid.empty_level(entry));
+        }
+        let cells = pyramid.cells(stored);
+        let bit = cells[cell[2] % CELLS] >> ((cell[1] % CELLS) * CELLS + cell[0] % CELLS) & 1;
+        (bit == 0).then(|| empty_level_within(cells, cell))
     }
 
     /// The sample under the cursor; with a cue, both parts of its colour together.
@@ -133,23 +171,18 @@ impl<T: Texel> Volume<'_, T> {
         (sample.truncate() * factor + ambient).extend(sample.w)
     }
 
-    /// How many samples on the first one beyond the pyramid's cell of `level` around `cell` is: at least 1, and never
-    /// past a sample outside the cell.
+    /// How many samples on the first one beyond the pyramid's cell of `level` around the cursor is: at least 1, and never
+    /// past a sample outside that cell.
     #[inline]
-    fn leap(&self, cursor: &Cursor, cell: [usize; 3], level: u32) -> i64 {
-        let mut inside = f64::INFINITY;
-        for axis in [0, 1, 2] {
-            let step = self.walk.step[axis];
-            let low = ((cell[axis] >> level) << level) as i64;
-            let room = if step > 0 {
-                ((low + (1 << level)) << FRACTION_BITS) - 1 - cursor.at[axis]
-            } else {
-                cursor.at[axis] - (low << FRACTION_BITS)
-            };
-            inside = inside.min(room as f64 * self.walk.per_step[axis]);
-        }
-        // `inside` is infinite only if the rays stand still, which `Walk::new` refuses.
-        inside as i64 + 1
+    fn leap(&self, cursor: &Cursor, level: u32) -> i64 {
+        // Cells are aligned: the bits under `mask` are the place in the cell, whose complement is the room ahead.
+        let mask = (1_i64 << (level + FRACTION_BITS)) - 1;
+        let room = |axis: usize| {
+            let ahead = (cursor.at[axis] ^ !(self.walk.step[axis] >> 63)) & mask;
+            ahead as f64 * self.walk.per_step[axis]
+        };
+        // Infinite along all axes only if the rays stand still, which `Walk::new` refuses.
+        room(0).min(room(1)).min(room(2)) as i64 + 1
     }
 
     /// Composites the gel of the slabs before number `until`, unless the ray is opaque to `stop` before.

@@ -81,7 +81,9 @@ fn the_strength_of_each_light_weakens_its_own_color_in_the_order_of_the_scene() 
     let unshadowed = world.get::<&Gel>(volume).unwrap().lit.clone();
     let opacity = world.get::<&Opacity>(volume).unwrap().voxels.clone();
     let quarter: Bricks<u16> = opacity.map(|_, _, made| made.fill(65535));
-    world.insert_one(side, strength::LightStrength { voxels: quarter, full: 0.25 }).unwrap();
+    world
+        .insert_one(side, strength::LightStrength { voxels: quarter, full: 0.25, buffer: None })
+        .unwrap();
     prepare(&mut world);
     let colors = world.get::<&LitColors>(volume).unwrap();
     let gel = world.get::<&Gel>(volume).unwrap();
@@ -144,7 +146,10 @@ fn painted_voxels_keep_their_colors_whatever_the_lights() {
     let light = spawn_light(&mut world, 1, Toward::Direction([0.0, 0.0, 1.0]));
     let clear = Bricks::make(grid.size, |_, _| true);
     world
-        .insert(light, (CastsShadow::default(), LightStrength { voxels: clear, full: 1.0 }))
+        .insert(
+            light,
+            (CastsShadow::default(), LightStrength { voxels: clear, full: 1.0, buffer: None }),
+        )
         .unwrap();
     spawn_view(&mut world, &grid);
     prepare(&mut world);

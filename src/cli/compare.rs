@@ -1,0 +1,76 @@
+//! `gelray compare`: the error between two images, in linear light and in sRGB, and where they differ.
+
+use std::path::Path;
+
+use gelray::formats::pictures::write_picture;
+use gelray::formats::read_picture;
+use gelray::measure::error::{Difference, Errors, compare};
+use serde::Serialize;
+
+use super::failure::{Failure, print};
+use super::flags::Flags;
+use super::outputs;
+use super::table::table;
+
+/// All that `--stats` writes of a comparison.
+#[derive(Debug, Serialize)]
+struct Stats<'a> {
+    version: &'static str,
+    a: &'a Path,
+    b: &'a Path,
+    size: [usize; 2],
+    linear: Errors,
+    srgb: Errors,
+    /// Column and row of the largest difference.
+    worst_at: [usize; 2],
+    /// Pixels that are not finite, in each.
+    non_finite: [usize; 2],
+}
+
+/// Prints the error between two images, and writes what was asked for.
+pub fn run(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
+    flags.refuse_others("compare", &["--output", "--stats"])?;
+    if let Some(map) = &flags.output {
+        outputs::check_picture(map)?;
+    }
+    outputs::check(flags, &[a, b])?;
+    let (first, second) = (read_picture(a)?, read_picture(b)?);
+    let found = compare(&first, &second).map_err(|problem| {
+        Failure::Said(format!("{} and {}: {problem}", a.display(), b.display()))
+    })?;
+    if let Some(map) = &flags.output {
+        write_picture(map, &found.worst, &[])?;
+    }
+    if let Some(path) = &flags.stats {
+        let Difference { linear, srgb, worst_at, non_finite, .. } = found;
+        let (version, size) = (env!("CARGO_PKG_VERSION"), first.size);
+        outputs::write_json(
+            path,
+            &Stats { version, a, b, size, linear, srgb, worst_at, non_finite },
+        )?;
+    }
+    print(&words(&found))
+}
+
+fn words(found: &Difference) -> String {
+    let heading = ["", "max", "rmse", "psnr", "ssim"].map(str::to_owned);
+    let rows = [heading, row("linear", &found.linear), row("sRGB", &found.srgb)];
+    let [column, row] = found.worst_at;
+    let place = match found.linear.max {
+        0.0 => "The pictures are equal.\n".to_owned(),
+        _ => format!("They differ most in column {column} of row {row}, from 0 at the top left.\n"),
+    };
+    let left_out = match found.non_finite {
+        [0, 0] => String::new(),
+        [a, b] => format!(
+            "Left out, as infinite or not numbers: {a} pixels of the first and {b} of the second.\n"
+        ),
+    };
+    table(&rows, &[1, 2, 3, 4]) + &place + &left_out
+}
+
+fn row(name: &str, errors: &Errors) -> [String; 5] {
+    let Errors { max, rmse, psnr_db, ssim } = errors;
+    let psnr = if psnr_db.is_finite() { format!("{psnr_db:.2} dB") } else { "∞ dB".to_owned() };
+    [name.to_owned(), format!("{max:.6}"), format!("{rmse:.6}"), psnr, format!("{ssim:.6}")]
+}

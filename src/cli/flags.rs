@@ -1,0 +1,142 @@
+//! The flags: they mean the same for every verb, and one that a verb has no use for is refused rather than ignored.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::bytes;
+use super::failure::Failure;
+
+/// All flags of all verbs.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Flags")]
+pub struct Flags {
+    /// The file to write; its extension says the format (.png .exr .tiff .npy)
+    #[arg(short, long, value_name = "OUT", global = true)]
+    pub output: Option<PathBuf>,
+    /// Pixels across and down, in place of the scene's
+    #[arg(long, value_name = "WxH", global = true, value_parser = size)]
+    pub size: Option<[u32; 2]>,
+    /// Changes the scene: head.classify.iso.0.value=1200 (repeatable)
+    #[arg(long, value_name = "ENTITY.COMPONENT.KEY=VALUE", global = true)]
+    pub set: Vec<String>,
+    /// A folder to look for data in, before those of GELRAY_DATA (repeatable)
+    #[arg(long, value_name = "DIR", global = true, value_parser = folder)]
+    pub data: Vec<PathBuf>,
+    /// How many threads compute [default: one a core]
+    #[arg(short, long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// No skipping, no stopping, a ray at every position, 32-bit texels
+    #[arg(long, global = true)]
+    pub exact: bool,
+    /// Writes counts, bytes and seconds
+    #[arg(long, value_name = "FILE.json", global = true)]
+    pub stats: Option<PathBuf>,
+    /// Writes spans for chrome://tracing or ui.perfetto.dev
+    #[arg(long, value_name = "FILE.json", global = true)]
+    pub trace: Option<PathBuf>,
+    /// Writes where rays were cast, 4 × 4 positions a pixel
+    #[arg(long, value_name = "FILE.png", global = true, value_parser = png)]
+    pub rays: Option<PathBuf>,
+    /// Refuses to begin if the plan needs more bytes (8G, 512M)
+    #[arg(long, value_name = "BYTES", global = true, value_parser = bytes::parse)]
+    pub max_memory: Option<u64>,
+    /// Says nothing but errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Says more
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+}
+
+impl Flags {
+    /// Refuses the first flag that was given and that the verb does not take; `--data`, `-t`, `-q` and `-v` are for all.
+    pub fn refuse_others(&self, verb: &str, takes: &[&str]) -> Result<(), Failure> {
+        let given = [
+            ("--output", self.output.is_some()),
+            ("--size", self.size.is_some()),
+            ("--set", !self.set.is_empty()),
+            ("--exact", self.exact),
+            ("--stats", self.stats.is_some()),
+            ("--trace", self.trace.is_some()),
+            ("--rays", self.rays.is_some()),
+            ("--max-memory", self.max_memory.is_some()),
+        ];
+        match given.iter().find(|(flag, given)| *given && !takes.contains(flag)) {
+            Some((flag, _)) => Err(Failure::Misused(format!(
+                "`gelray {verb}` has no use for {flag}; leave it away"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Every file that is to be written, with the flag that names it.
+    pub fn outputs(&self) -> Vec<(&'static str, &Path)> {
+        let named = [
+            ("--output", &self.output),
+            ("--stats", &self.stats),
+            ("--trace", &self.trace),
+            ("--rays", &self.rays),
+        ];
+        named.into_iter().filter_map(|(flag, path)| Some((flag, path.as_deref()?))).collect()
+    }
+
+    /// The folders of data, in the order in which they are looked through.
+    pub fn data_folders(&self) -> Vec<PathBuf> {
+        let variable = std::env::var_os("GELRAY_DATA").unwrap_or_default();
+        let folders = std::env::split_paths(&variable).filter(|path| !path.as_os_str().is_empty());
+        self.data.iter().cloned().chain(folders).collect()
+    }
+
+    /// Makes the threads that compute.
+    pub fn set_threads(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
+        pool.thread_name(|number| format!("thread {number}")).build_global().map_err(|error| {
+            Failure::Said(format!(
+                "{threads} threads cannot be made ({error}); ask for fewer with --threads"
+            ))
+        })
+    }
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |side: &str| side.parse().ok().filter(|side| (1..=16384).contains(side));
+    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([side(w)?, side(h)?]));
+    sides.ok_or_else(|| {
+        "pixels across and down are expected, each 1 to 16384, such as 380x380".to_owned()
+    })
+}
+
+fn folder(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if path.is_dir() {
+        Ok(path)
+    } else {
+        Err("there is no such folder; name one that is there".to_owned())
+    }
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(end) if end.eq_ignore_ascii_case("png") => Ok(path),
+        _ => Err("the map of rays is a PNG; give it a name that ends in .png".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_has_two_sides_of_1_to_16384_pixels() {
+        assert_eq!(size("380x240"), Ok([380, 240]));
+        assert_eq!(size("1×16384"), Ok([1, 16384]));
+        for text in
+            ["", "380", "0x10", "10x0", "10x16385", "-1x5", "3.5x2", "1x2x3", "99999999999x1"]
+        {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+}

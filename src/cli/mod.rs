@@ -1,0 +1,113 @@
+//! The command line: parse → run → report, a verb a file.
+//!
+//! Flags mean the same for every verb and stand in any place. Results go to standard output, everything else to
+//! standard error. Exit codes: 0 done, 1 failed, 2 misused, 130 interrupted.
+
+mod bytes;
+mod compare;
+mod failure;
+mod flags;
+mod info;
+mod info_picture;
+mod interrupt;
+mod outputs;
+mod plan;
+mod progress;
+mod render;
+mod scenes;
+mod schema;
+mod stats;
+mod table;
+mod trace;
+mod verb_first;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+use flags::Flags;
+
+const EXAMPLES: &str = "\
+Examples:
+  gelray render -o head.png                          the embedded scene `head`
+  gelray render scene.toml -o out.exr --stats out.json
+  gelray render -o big.png --size 1520x1520 --set observer.view.azimuth=60
+  gelray plan scene.toml                             what would run, and how many bytes it takes
+  gelray compare fast.png exact.png -o where.png     how far two images are apart, and where
+
+Exit codes: 0 done, 1 failed, 2 misused, 130 interrupted.
+Folders for data: --data DIR and the variable GELRAY_DATA (several, as in PATH).";
+
+/// Renders mixtures of volumes and polygons as coloured gel, after Levoy 1988
+#[derive(Debug, Parser)]
+#[command(name = "gelray", version, propagate_version = true, max_term_width = 110)]
+#[command(arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Renders one image
+    #[command(after_help = render::EXAMPLES)]
+    Render {
+        /// A scene file, or the name of an embedded scene [default: head]
+        scene: Option<String>,
+    },
+    /// Tells which systems would run, which not and why, and how many bytes they take
+    Plan {
+        /// A scene file, or the name of an embedded scene [default: head]
+        scene: Option<String>,
+    },
+    /// Tells the error between two images; with -o, an image of where they differ
+    Compare {
+        /// An image
+        a: std::path::PathBuf,
+        /// Another one of the same size
+        b: std::path::PathBuf,
+    },
+    /// Tells what a volume or an image holds: header, values, histogram, suggested isovalues
+    Info {
+        /// A file, or `phantom:NAME`
+        file: String,
+    },
+    /// Lists the embedded scenes, or prints one
+    Scenes {
+        /// The name of an embedded scene
+        name: Option<String>,
+    },
+    /// Prints the JSON schema of the scene format
+    Schema,
+}
+
+/// Parses the arguments, runs the verb and says what went wrong.
+pub fn main(arguments: Vec<OsString>) -> ExitCode {
+    match Cli::try_parse_from(verb_first::verb_first(arguments)) {
+        Ok(Cli { verb, flags }) => match run(verb, &flags) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => failure.report(),
+        },
+        Err(words) => {
+            // Help that nobody reads on is no failure.
+            let _ = words.print();
+            ExitCode::from(if words.use_stderr() { failure::MISUSED } else { 0 })
+        }
+    }
+}
+
+fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
+    flags.set_threads()?;
+    match verb {
+        Verb::Render { scene } => render::run(scene.as_deref(), flags),
+        Verb::Plan { scene } => plan::run(scene.as_deref(), flags),
+        Verb::Compare { a, b } => compare::run(&a, &b, flags),
+        Verb::Info { file } => info::run(&file, flags),
+        Verb::Scenes { name } => scenes::run(name.as_deref(), flags),
+        Verb::Schema => schema::run(flags),
+    }
+}

@@ -1,0 +1,82 @@
+//! Files out: checked before any work is done, so that no hour of rendering ends at a folder that is not there.
+
+use std::path::{Path, PathBuf};
+
+use gelray::Error;
+use gelray::formats::pictures::{PICTURE_FORMATS, check_output, format_of};
+use gelray::formats::whole::{check_writable, write_whole};
+
+use super::failure::{Failure, print};
+use super::flags::Flags;
+
+/// Finds out whether a picture could be written; an extension that no picture has is a misuse.
+pub fn check_picture(path: &Path) -> Result<(), Failure> {
+    check_output(path).map_err(|error| {
+        if format_of(path).is_some_and(|format| format.write.is_some()) {
+            error.into()
+        } else {
+            Failure::Misused(error.to_string())
+        }
+    })
+}
+
+/// Finds out whether the files that flags name could be written, and that none of them is another one or an input.
+pub fn check(flags: &Flags, inputs: &[&Path]) -> Result<(), Failure> {
+    let named = flags.outputs();
+    for (at, (flag, path)) in named.iter().enumerate() {
+        check_writable(path)?;
+        if !path.metadata().map_or(true, |found| found.is_file()) {
+            continue;
+        }
+        let place = place(path);
+        if let Some((other, _)) = named[..at].iter().find(|(_, other)| self::place(other) == place)
+        {
+            return Err(Failure::Misused(format!(
+                "{other} and {flag} both name {}; give each a file of its own",
+                path.display()
+            )));
+        }
+        if inputs.iter().any(|input| self::place(input) == place) {
+            return Err(Failure::Misused(format!(
+                "{flag} names {}, which is read; choose another file",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// A path without its links and detours, as far as there is a file or a folder.
+fn place(path: &Path) -> PathBuf {
+    let whole = |path: &Path| path.canonicalize().ok();
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let beside = || Some(whole(folder.unwrap_or(Path::new(".")))?.join(path.file_name()?));
+    whole(path).or_else(beside).unwrap_or_else(|| path.to_owned())
+}
+
+/// Text to the file that `-o` names, or else to standard output.
+pub fn print_or_write(text: &str, flags: &Flags) -> Result<(), Failure> {
+    match &flags.output {
+        Some(path) => write_text(path, text).map_err(Failure::from),
+        None => print(text),
+    }
+}
+
+/// A file of text, whole or not at all.
+pub fn write_text(path: &Path, text: &str) -> Result<(), Error> {
+    write_whole(path, |out| Ok(out.write_all(text.as_bytes())?))
+}
+
+/// A file of JSON, whole or not at all.
+pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
+    write_whole(path, |out| {
+        serde_json::to_writer_pretty(&mut *out, value)?;
+        Ok(out.write_all(b"\n")?)
+    })
+}
+
+/// The extensions of the pictures that are written, for sentences.
+pub fn extensions() -> String {
+    let written = PICTURE_FORMATS.iter().filter(|format| format.write.is_some());
+    written.map(|format| format!(".{}", format.extensions[0])).collect::<Vec<_>>().join(", ")
+}

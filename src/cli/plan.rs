@@ -1,0 +1,73 @@
+//! `gelray plan`: which systems run, which do not and why, sizes in bytes before anything is allocated.
+
+use std::path::Path;
+
+use gelray::Error;
+use gelray::components::Name;
+use gelray::schedule::{Job, Plan, Schedule};
+use gelray::systems::JOBS;
+use hecs::World;
+
+use super::bytes::human;
+use super::failure::Failure;
+use super::flags::Flags;
+use super::table::table;
+use super::{outputs, render, stats};
+
+/// Prints the plan of a scene.
+pub fn run(scene: Option<&str>, flags: &Flags) -> Result<(), Failure> {
+    flags.refuse_others("plan", &["--output", "--size", "--set", "--exact", "--max-memory"])?;
+    let source = render::open(scene)?;
+    outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
+    let scene = render::load(&source, flags)?;
+    let schedule = Schedule::new(JOBS)?;
+    outputs::print_or_write(&words(&schedule, &scene.world), flags)?;
+    check_memory(&schedule, &scene.world, flags)
+}
+
+/// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
+pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
+    let needed = most_bytes(schedule, world);
+    match flags.max_memory {
+        Some(allowed) if needed > allowed => Err(Error::Memory { needed, allowed }.into()),
+        _ => Ok(()),
+    }
+}
+
+fn jobs(schedule: &Schedule) -> impl Iterator<Item = &Job> {
+    schedule.waves().iter().flatten()
+}
+
+/// The voxels that were read, and the most that systems can make of them.
+fn most_bytes(schedule: &Schedule, world: &World) -> u64 {
+    let plans = jobs(schedule).map(|job| (job.plan)(world).bytes());
+    plans.fold(stats::voxels(world), u64::saturating_add)
+}
+
+fn words(schedule: &Schedule, world: &World) -> String {
+    let heading = ["system", "", "bytes at most", "", "makes", "for", "why"].map(str::to_owned);
+    let voxels = stats::voxels(world);
+    let read = ["", "", &human(voxels), &voxels.to_string(), "voxels", "", "as they were read"];
+    let total = most_bytes(schedule, world);
+    let sum = ["total", "", &human(total), &total.to_string(), "", "", ""];
+    let mut rows = vec![heading, read.map(str::to_owned)];
+    rows.extend(jobs(schedule).map(|job| row(job, &(job.plan)(world), world)));
+    rows.push(sum.map(str::to_owned));
+    table(&rows, &[2, 3])
+}
+
+fn row(job: &Job, plan: &Plan, world: &World) -> [String; 7] {
+    let runs = !plan.makes.is_empty();
+    let name = |entity| world.get::<&Name>(entity).map(|name| name.0.clone()).unwrap_or_default();
+    let entities: Vec<_> = plan.makes.iter().map(|(entity, _)| name(*entity)).collect();
+    let bytes = plan.bytes();
+    [
+        job.name.to_owned(),
+        (if runs { "runs" } else { "does not run" }).to_owned(),
+        if runs { human(bytes) } else { String::new() },
+        if runs { bytes.to_string() } else { String::new() },
+        format!("{:?}", job.makes),
+        entities.join(", "),
+        plan.why.to_owned(),
+    ]
+}

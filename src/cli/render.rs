@@ -1,0 +1,203 @@
+//! `gelray render`: one image of a scene.
+
+use std::path::Path;
+use std::time::Instant;
+
+use gelray::Error;
+use gelray::formats::pictures::{write_picture, write_ray_map};
+use gelray::products::{Frame, Samples};
+use gelray::samples::POSITIONS;
+use gelray::scene::{Scene, Source};
+use gelray::schedule::{Ran, Schedule};
+use gelray::systems::JOBS;
+use hecs::World;
+
+use super::failure::{Failure, tell};
+use super::flags::Flags;
+use super::interrupt::Interrupt;
+use super::progress::Progress;
+use super::stats::{Bytes, Counted, Seconds, Stats};
+use super::trace::Trace;
+use super::{outputs, plan};
+
+pub const EXAMPLES: &str = "\
+Examples:
+  gelray render -o head.png                          the embedded scene `head`
+  gelray render minimal_4 -o ball.png --size 800x600
+  gelray render scene.toml -o out.exr --data ~/scans --exact
+  gelray render -o head.png --set head.classify.iso.0.value=1200 --set observer.view.azimuth=60
+  gelray render -o head.png --rays rays.png --stats head.json --trace spans.json";
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Renders the scene and writes what was asked for.
+pub fn run(scene: Option<&str>, flags: &Flags) -> Result<(), Failure> {
+    let start = Instant::now();
+    let out = flags.output.as_deref().ok_or_else(|| {
+        Failure::Misused(format!(
+            "`gelray render` needs a file to write; add -o OUT, a name that ends in one of {}",
+            outputs::extensions()
+        ))
+    })?;
+    outputs::check_picture(out)?;
+    let source = open(scene)?;
+    outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
+    let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
+    let interrupt = Interrupt::listen();
+    let mut scene = load(&source, flags)?;
+    let loaded = start.elapsed().as_secs_f64();
+    let ran = run_systems(&mut scene.world, &interrupt, flags)?;
+    let made = Rendered::of(&scene.world)?;
+    write_picture(out, &made.frame.0, &notes(&scene, &made, flags)?)?;
+    if let Some(path) = &flags.rays {
+        interrupt.watch.check()?;
+        let array = &made.samples.0;
+        write_ray_map(path, array.layout.size.map(|n| n * POSITIONS), &array.ray_map())?;
+    }
+    let total = start.elapsed().as_secs_f64();
+    if let Some(path) = &flags.stats {
+        interrupt.watch.check()?;
+        outputs::write_json(path, &stats(&scene, &made, &ran, [loaded, total], flags.exact))?;
+    }
+    if let Some((trace, path)) = trace {
+        trace.end(path)?;
+    }
+    interrupt.watch.check()?;
+    say_done(out, &made, &ran, total, flags);
+    Ok(())
+}
+
+/// The scene of an argument; without one, the first that is part of the program.
+pub fn open(scene: Option<&str>) -> Result<Source, Error> {
+    Source::open(scene.unwrap_or("head"))
+}
+
+/// Reads a scene with the changes that flags ask for, and says what was guessed or replaced.
+///
+/// A fault that `--set` brought in is a misuse.
+pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
+    let _span = tracing::info_span!("load").entered();
+    let mut changes = flags.set.clone();
+    if let Some([width, height]) = flags.size {
+        changes.push(format!("{}.view.size=[{width}, {height}]", view_name(&source.text)));
+    }
+    let scene = gelray::scene::load(source, &changes, &flags.data_folders(), flags.exact)
+        .map_err(|error| blame(error, source))?;
+    for warning in scene.warnings.iter().filter(|_| !flags.quiet) {
+        tell(format_args!("warning: {warning}"));
+    }
+    Ok(scene)
+}
+
+/// The name of the scene's view: as stated, or what a view without a name is called.
+fn view_name(text: &str) -> String {
+    let scene: toml::Table = text.parse().unwrap_or_default();
+    let entities =
+        scene.get("entity").and_then(toml::Value::as_array).map_or(&[][..], Vec::as_slice);
+    let name = |entity: &toml::Value| Some(entity.get("name")?.as_str()?.to_owned());
+    let view = entities.iter().find(|entity| entity.get("view").is_some());
+    let numbered = (2_u32..).map(|number| format!("observer {number}"));
+    let mut default = std::iter::once("observer".to_owned()).chain(numbered);
+    let free =
+        |default: &String| !entities.iter().any(|entity| name(entity).as_ref() == Some(default));
+    view.and_then(name).or_else(|| default.find(free)).unwrap_or_default()
+}
+
+/// Whose fault an error is: that of `--set` if it stands in a line that is not the scene's own.
+fn blame(error: Error, source: &Source) -> Failure {
+    let Error::Scene(fault) = &error else { return error.into() };
+    let changed = || {
+        let (text, span) = (fault.text.inner(), fault.span?);
+        let begin = text.get(..span.offset())?.rfind('\n').map_or(0, |end| end + 1);
+        let line = text.get(begin..)?.lines().next()?;
+        Some(!source.text.lines().any(|own| own == line))
+    };
+    if fault.place.starts_with("--set ") || changed() == Some(true) {
+        return Failure::Misused(error.to_string());
+    }
+    error.into()
+}
+
+/// Runs every system on the world, within the memory that is allowed.
+fn run_systems(
+    world: &mut World,
+    interrupt: &Interrupt,
+    flags: &Flags,
+) -> Result<Vec<Ran>, Failure> {
+    let schedule = Schedule::new(JOBS)?;
+    plan::check_memory(&schedule, world, flags)?;
+    interrupt.work_begins();
+    let _progress = Progress::show(&interrupt.watch, flags);
+    let ran = schedule.run(world, &interrupt.watch)?;
+    interrupt.watch.check()?;
+    Ok(ran)
+}
+
+/// What a view's systems made.
+struct Rendered {
+    frame: Frame,
+    samples: Samples,
+    counts: Counted,
+}
+
+impl Rendered {
+    fn of(world: &World) -> Result<Self, Error> {
+        let mut views = world.query::<(&Frame, &Samples)>();
+        let (frame, samples) = views
+            .iter()
+            .next()
+            .ok_or_else(|| Error::Schedule("no system made a picture of the view".to_owned()))?;
+        let counts = Counted::of(world, samples.0.counts, frame.0.size);
+        Ok(Self { frame: frame.clone(), samples: samples.clone(), counts })
+    }
+}
+
+/// What the picture says of itself: all that it takes to make it again, and no clock time.
+fn notes(scene: &Scene, made: &Rendered, flags: &Flags) -> Result<Vec<(String, String)>, Failure> {
+    let counts = serde_json::to_string(&made.counts)
+        .map_err(|error| Failure::Said(format!("the counts cannot be noted ({error})")))?;
+    let mut notes = vec![
+        ("version", format!("gelray {VERSION}")),
+        ("scene", scene.name.clone()),
+        ("settings", scene.resolved.clone()),
+        ("counts", counts),
+    ];
+    if flags.exact {
+        notes.push(("exact", "true".to_owned()));
+    }
+    Ok(notes.into_iter().map(|(name, text)| (name.to_owned(), text)).collect())
+}
+
+fn stats<'a>(
+    scene: &'a Scene,
+    made: &Rendered,
+    ran: &'a [Ran],
+    [load, total]: [f64; 2],
+    exact: bool,
+) -> Stats<'a> {
+    let size = made.frame.0.size;
+    Stats {
+        version: VERSION,
+        scene: &scene.name,
+        size,
+        threads: rayon::current_num_threads(),
+        exact,
+        systems: ran,
+        counts: Counted::of(&scene.world, made.samples.0.counts, size),
+        bytes: Bytes::of(&scene.world),
+        seconds: Seconds::of(ran, load, total),
+    }
+}
+
+/// The last line: what was made; with `-v`, after a line a system.
+fn say_done(out: &Path, made: &Rendered, ran: &[Ran], total: f64, flags: &Flags) {
+    if flags.quiet {
+        return;
+    }
+    for Ran { name, made, reused, seconds } in ran.iter().filter(|_| flags.verbose) {
+        tell(format_args!("{name}: {made} made, {reused} kept, {seconds:.3} s"));
+    }
+    let ([width, height], rays) = (made.frame.0.size, made.counts.rays_per_pixel);
+    let out = out.display();
+    tell(format_args!("{out}: {width} × {height} pixels, {rays:.2} rays a pixel, {total:.3} s"));
+}

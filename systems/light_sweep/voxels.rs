@@ -1,0 +1,132 @@
+//! From columns to voxels: the one resampling of strengths, at points that are the bias nearer to the light (paper §4).
+
+use rayon::prelude::*;
+
+use super::columns::Columns;
+use crate::bricks::{Bricks, EDGE};
+use crate::strength::{Falloff, Place, Shear, quantize};
+
+/// The strengths at interesting voxels, gathered slice by slice.
+pub(super) struct Voxels<'a> {
+    opacity: &'a Bricks<f32>,
+    falloff: &'a Falloff,
+    /// In slices.
+    bias: f64,
+    full: f32,
+    /// For each slice and each row of bricks in it.
+    slices: Vec<Vec<Lit>>,
+}
+
+/// The strengths of one slice in one row of bricks, x fastest in each brick.
+struct Lit {
+    /// Where each brick's strengths start.
+    starts: Vec<u32>,
+    strengths: Vec<u16>,
+}
+
+/// The beams of light to the voxels of a slice: all are alike but for whole columns.
+struct Beams<'a> {
+    columns: &'a Columns<'a>,
+    slice: usize,
+    /// Where the strength for voxel (0, 0) is read, and at which distance along the light that is.
+    place: Option<Place>,
+    distance: f64,
+    /// What the distance grows by from a voxel to its neighbours across and down.
+    farther: [f64; 2],
+}
+
+impl Beams<'_> {
+    /// β at a voxel of the slice.
+    #[inline]
+    fn beta(&self, voxel: [usize; 2], falloff: &Falloff) -> f64 {
+        let [x, y] = voxel.map(|v| v as f64);
+        let column = self.columns.shear.column([x, y], self.slice as f64);
+        let place = self.place.map(|place| place.moved(voxel));
+        let distance = self.distance + x * self.farther[0] + y * self.farther[1];
+        self.columns.strength(place.as_ref(), column) / falloff.divisor(distance)
+    }
+}
+
+impl<'a> Voxels<'a> {
+    pub fn new(opacity: &'a Bricks<f32>, falloff: &'a Falloff, bias: f64, full: f32) -> Self {
+        Self { opacity, falloff, bias, full, slices: Vec::new() }
+    }
+
+    /// Lights the interesting voxels of the slice that the columns have come to.
+    pub fn light(&mut self, slice: usize, columns: &Columns<'_>) {
+        let shear = columns.shear;
+        let distance = |x, y| self.falloff.distance(shear.world([x, y, slice as f64]));
+        let first = distance(0.0, 0.0);
+        let beams = Beams {
+            columns,
+            slice,
+            place: shear.place(shear.column([0.0; 2], slice as f64), slice as f64 - self.bias),
+            distance: first - self.bias * shear.distance,
+            farther: [distance(1.0, 0.0) - first, distance(0.0, 1.0) - first],
+        };
+        let rows = (0..shear.size[1].div_ceil(EDGE)).into_par_iter();
+        let rows = rows.map(|row| self.row(row, &beams)).collect();
+        self.slices.push(rows);
+    }
+
+    fn row(&self, row: usize, beams: &Beams<'_>) -> Lit {
+        let (shear, slice) = (beams.columns.shear, beams.slice);
+        let bricks = shear.size[0].div_ceil(EDGE);
+        let mut lit = Lit { starts: Vec::with_capacity(bricks), strengths: Vec::new() };
+        for brick in 0..bricks {
+            lit.starts.push(lit.strengths.len() as u32);
+            let Some(opacities) = self.opacity.brick(place(shear, [brick, row], slice)) else {
+                continue;
+            };
+            for ([x, y], within) in offsets(shear, slice) {
+                if opacities[within] > 0.0 {
+                    let beta = beams.beta([brick * EDGE + x, row * EDGE + y], self.falloff);
+                    lit.strengths.push(quantize(beta, f64::from(self.full)));
+                }
+            }
+        }
+        lit.strengths.shrink_to_fit();
+        lit
+    }
+
+    /// Puts the strengths into the bricks of what is relit.
+    pub fn gather(self, shear: &Shear) -> Bricks<u16> {
+        self.opacity.map(|bricks, opacities, made| {
+            let [column, row, along] = shear.axes.map(|axis| bricks.brick[axis]);
+            let first = along * EDGE;
+            for along in first..(first + EDGE).min(shear.size[2]) {
+                let slice = shear.flip(along);
+                let lit = &self.slices[slice][row];
+                let mut strengths = lit.strengths[lit.starts[column] as usize..].iter();
+                for (_, within) in offsets(shear, slice) {
+                    if opacities[within] > 0.0
+                        && let Some(&strength) = strengths.next()
+                    {
+                        made[within] = strength;
+                    }
+                }
+            }
+        })
+    }
+}
+
+/// The brick at a place of a slice.
+fn place(shear: &Shear, [x, y]: [usize; 2], slice: usize) -> [usize; 3] {
+    let mut place = [0; 3];
+    for (axis, brick) in shear.axes.into_iter().zip([x, y, shear.flip(slice) / EDGE]) {
+        place[axis] = brick;
+    }
+    place
+}
+
+/// The voxels of a brick in a slice: across and down, and the place in the brick.
+///
+/// Voxels beyond the grid are among them; no brick holds an opacity there.
+fn offsets(shear: &Shear, slice: usize) -> impl Iterator<Item = ([usize; 2], usize)> {
+    let [across, down, along] = shear.axes.map(|axis| EDGE.pow(axis as u32));
+    let first = (shear.flip(slice) % EDGE) * along;
+    (0..EDGE * EDGE).map(move |at| {
+        let (x, y) = (at % EDGE, at / EDGE);
+        ([x, y], first + x * across + y * down)
+    })
+}

@@ -1,0 +1,142 @@
+//! `plan`, `info`, `compare`, `scenes`, `schema`, `--version`, `--help`: results on standard output.
+
+use std::io::Read;
+use std::process::{Command, Stdio};
+
+use gelray::formats::read_picture;
+use gelray::scene::EMBEDDED;
+
+use super::{Place, small_nrrd};
+
+#[test]
+fn a_plan_tells_systems_bytes_and_reasons_and_writes_nothing() {
+    let place = Place::new();
+    let ran = place.done("plan cross.toml --size 100x50");
+    let line = |name: &str| ran.out.lines().find(|line| line.starts_with(name)).unwrap();
+    assert!(line("resample").contains("runs") && line("resample").contains("80000"), "{}", ran.out);
+    assert!(line("cast").contains("observer") && line("cast").contains("a view is stated"));
+    let bytes = |name: &str| -> u64 {
+        let words: Vec<&str> = line(name).split_whitespace().collect();
+        let unit = words.iter().position(|word| word.ends_with("iB")).unwrap();
+        words[unit + 1].parse().unwrap()
+    };
+    assert_eq!(bytes("total"), bytes("cast") + bytes("resample"));
+    assert_eq!(place.names(), ["cross.toml"]);
+    place.done("plan cross.toml --size 100x50 -o plan.txt");
+    assert_eq!(place.read("plan.txt"), ran.out.as_bytes());
+}
+
+#[test]
+fn a_volume_is_told_by_header_values_and_histogram() {
+    let place = Place::new();
+    place.write("small.nrrd", small_nrrd());
+    let out = place.done("info small.nrrd").out;
+    for fact in [
+        "6 × 5 × 4 of uint8, 120 B",
+        "(2, 2, 3)",
+        "i +x, j +y, k +z (LPS in a patient)",
+        "(0, 0, 0) to (10, 8, 9)",
+        "0 to 200",
+        "0 NaN",
+        "mean",
+        "isovalues",
+    ] {
+        assert!(out.contains(fact), "{fact} in {out}");
+    }
+    let counted: Vec<&str> = out.lines().filter(|line| line.contains('█')).collect();
+    assert!(
+        counted.len() == 2 && counted[0].ends_with("72") && counted[1].ends_with("48"),
+        "{out}"
+    );
+    assert!(place.done("info phantom:ball").out.contains("64 × 64 × 64"));
+}
+
+#[test]
+fn a_picture_is_told_by_size_and_range() {
+    let place = Place::new();
+    place.done("render cross.toml -o a.exr");
+    let out = place.done("info a.exr").out;
+    assert!(out.contains("48 × 40, EXR") || out.contains("48 × 40, OpenEXR"), "{out}");
+    assert!(out.contains("alpha") && out.contains("empty"), "{out}");
+}
+
+#[test]
+fn pictures_that_differ_are_compared_and_that_is_no_failure() {
+    let place = Place::new();
+    place.done("render cross.toml -o a.png");
+    place.done("render cross.toml -o b.png --set red.surface.opacity=0.6");
+    let equal = place.done("compare a.png a.png").out;
+    assert!(equal.contains("∞ dB") && equal.contains("The pictures are equal."), "{equal}");
+    let out = place.done("compare a.png b.png -o map.png --stats d.json").out;
+    assert!(out.contains("linear") && out.contains("sRGB") && out.contains("in column"), "{out}");
+    assert_eq!(read_picture(&place.path("map.png")).unwrap().size, [48, 40]);
+    let stats = place.json("d.json");
+    for key in ["max", "rmse", "psnr_db", "ssim"] {
+        assert!(stats["linear"][key].is_number() && stats["srgb"][key].is_number(), "{key}");
+    }
+    assert!(stats["linear"]["max"].as_f64().unwrap() > 0.05);
+}
+
+#[test]
+fn pictures_of_two_sizes_are_a_failure_in_one_sentence() {
+    let place = Place::new();
+    place.done("render cross.toml -o a.png");
+    place.done("render cross.toml -o b.png --size 9x9");
+    place.refused("compare a.png b.png -o map.png", 1, &["48 × 40", "9 × 9", "render both"]);
+}
+
+#[test]
+fn embedded_scenes_are_listed_and_printed_as_they_are() {
+    let place = Place::new();
+    let list = place.done("scenes").out;
+    for (name, text) in EMBEDDED {
+        let comment = text.lines().next().unwrap().trim_start_matches("# ");
+        assert!(
+            list.lines().any(|line| line.starts_with(name) && line.ends_with(comment)),
+            "{name}"
+        );
+        assert_eq!(place.done(&format!("scenes {name}")).out, text);
+    }
+}
+
+#[test]
+fn the_schema_is_that_of_the_library() {
+    let out = Place::new().done("schema").out;
+    let schema: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(schema, gelray::scene::schema());
+}
+
+#[test]
+fn version_and_help_go_to_standard_output() {
+    let place = Place::new();
+    assert_eq!(place.done("--version").out, format!("gelray {}\n", env!("CARGO_PKG_VERSION")));
+    let help = place.done("--help").out;
+    for word in [
+        "render",
+        "plan",
+        "info",
+        "compare",
+        "scenes",
+        "schema",
+        "Examples:",
+        "Exit codes:",
+        "--set",
+    ] {
+        assert!(help.contains(word), "{word}");
+    }
+    assert!(place.done("render --help").out.contains("Examples:"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_gelray"))
+        .arg("schema")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut said = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    assert_eq!((child.wait().unwrap().code(), said.as_str()), (Some(0), ""));
+}
