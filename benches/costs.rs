@@ -7,7 +7,7 @@
 mod timed;
 mod way;
 
-use gelray::components::{CastsShadow, Sampling, Textured};
+use gelray::components::{CastsShadow, Sampling, TexturedBy};
 use gelray::measure::cost::{FRAME, paper_costs};
 use gelray::scene::{EMBEDDED, Source};
 use gelray::schedule::Ran;
@@ -97,7 +97,7 @@ fn stages(floors: &mut Vec<Floor>) {
     let of = |wanted: &dyn Fn(&str) -> bool| {
         Spread::of(&runs.iter().map(|ran| seconds(ran, wanted)).collect::<Vec<_>>()).median
     };
-    for Ran { name, .. } in &runs[0] {
+    for Ran { name, .. } in runs[0].iter().filter(|ran| ran.made > 0) {
         let spent = of(&|stage| stage == *name);
         let told = paper_costs(name).next().map_or_else(String::new, |paper| {
             format!("paper {} s, {:.0} times", paper.seconds, paper.seconds / spent)
@@ -237,7 +237,7 @@ fn textures() {
         Way::new("a frame, with textures", &source, |_| ()),
         Way::new("a frame, without", &source, |_| ()),
     ];
-    take_off::<Textured>(&mut ways[1].setting);
+    take_off::<TexturedBy>(&mut ways[1].setting);
     ways[1].setting.run();
     compare(&mut ways, "to without (paper: about 1.5)");
 }
