@@ -1,4 +1,79 @@
-//! gelray renders mixtures of volumes and polygons as coloured, semi-transparent gel.
+//! gelray renders mixtures of volumes and polygons as coloured, semi-transparent gel, after Levoy's "Rendering mixtures of
+//! geometric and volumetric data" (TR88-052, 1988). This page is the architecture; paper sections are §, figures by number.
+//!
+//! # The house
+//!
+//! `src` holds the nouns, [`systems`] the verbs. A scene *states* [`components`]; a system *makes* exactly one of the
+//! [`products`] from them and from what other systems made. Nothing is changed in place.
+//!
+//! - **Stated.** A [`scene`] is TOML: entities (a volume, polygons, lights, textures, a view) that carry components. An
+//!   option is a component too: `voxelize` on a polygon has it scan-converted instead of traced, `casts_shadow` on a light
+//!   brings in the light sweep, `sampling` on the view holds every knob of accuracy. There are no global settings.
+//! - **Made.** A product is carried by the entity that it was made for, immutable and shared by pointer. Its equality is
+//!   identity, so comparing inputs costs nothing however large they are.
+//! - **Derived order.** Each product has one maker, and a system names what it reads. From that the [`schedule`] derives
+//!   its waves; two makers or a cycle are its only errors. Systems run one by one and are parallel inside.
+//! - **Thrift.** [`schedule::Outbox::derive`] takes a product off where nobody asks for it, keeps it where its inputs are
+//!   those of the last run, and makes it else. So a turn of the view casts rays and does nothing else, and a scene without
+//!   a shadow has no light buffer, in time or memory. `gelray plan` prints what would run, and why, before it does.
+//! - **Measured.** The schedule opens a span around every system; [`measure::cost`] sums them to the cost table of §7.
+//!   Counts of rays and samples are facts about a picture and live in the product [`products::Samples`].
+//!
+//! # The walk of a voxel
+//!
+//! | stage | makes | by way of |
+//! |---|---|---|
+//! | `scene`, `formats` | [`grid::Scalars`] in the file's own number type, [`grid::Grid`] | a file, or a [`phantom`] made by formula |
+//! | `gradient` | ∇f, central differences in world units | dense, the only dense array made of voxels |
+//! | `classify` | α_V, in [`bricks`] stored only where something is interesting | [`classification`], [`clipping`] |
+//! | `shade` | c_i, one for each shadowed light and one for all others | [`shading`] |
+//! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
+//! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
+//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | [`relit`]; [`painting`] for RGBA volumes |
+//! | `pyramid` | which cells are interesting, level by level (§6) | [`pyramid`] |
+//!
+//! # The walk of a ray
+//!
+//! `cast` owns the rays of a view. `beams` splats the occupied bricks into tiles of the picture, which tells each beam
+//! where it can meet gel at all. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
+//! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that a polygon's edge is
+//! seen. `march` takes a ray through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in it into
+//! slivers (equations 2a and 2b), and stops when what lies behind can add no more than ε_T. `volume` finds the next
+//! interesting sample over the pyramid, `texture` filters what is mapped onto a polygon over the ray's footprint
+//! ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the sample array to
+//! the picture, and [`formats::pictures`] writes it.
+//!
+//! # Where this differs from the paper, and why
+//!
+//! - **Colours are associated before they are interpolated**, and composited in linear light. Interpolating colour and
+//!   opacity apart bleeds colour out of voxels that are not seen.
+//! - **Samples have one global phase**: sample k lies at (k + ½) Δ from the plane through the focal point. Their places are
+//!   fixed-point voxel indices ([`ray::Walk`]), so that n steps at once are n steps exactly: stepping over empty gel meets
+//!   the very samples that walking would have met, and pictures are equal bit for bit with the pyramid and without it, and
+//!   on any number of threads.
+//! - **Opacity is per unit of thickness.** A voxel's opacity is that of a slab one opacity unit thick; a sample stands for
+//!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture.
+//! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one
+//!   brick. It costs 42 % of memory where all is full, and nothing where all is empty, for such bricks are not stored.
+//! - **The normal is −∇f**, out of what is denser. `two_sided` materials turn it to the light.
+//! - **A clip is opacity**, baked in by `classify` as a ramp one voxel wide: a cut face shows no stairs, its inside is lit
+//!   and shadowed like any other gel, and the pyramid steps over what was cut away.
+//! - **Scan-converted opacity is calibrated** so that a plane seen face-on has its stated opacity, in the mean over its
+//!   places between voxels; `calibrated = false` gives the paper's ([`coverage`]).
+//! - **Falloff divides once.** Equation 3 as printed divides by k_1 + k_2 d at every sample, which compounds with their
+//!   number ([`strength`]).
+//! - **Strengths are swept in columns along the light**, a sheared buffer, so that only opacities are interpolated: one of
+//!   the paper's three resamplings is gone, as its §8 wishes.
+//! - **The reference for texture filters is the exact mean** of square texels over a ray's parallelogram, weighed by area;
+//!   ellipse, trilinear, bilinear and nearest are measured against it.
+//! - **Regions that outlines of polygons cross are split to a ray a pixel from the start** (`outlines`): polygons smaller
+//!   than the first grid of rays are not lost between them.
+//!
+//! # Limits
+//!
+//! A scene has one volume and one view, lights are directional and views parallel. Voxels are shaded before they are
+//! interpolated, as in the paper, so that what is magnified much looks soft. A material with highlights, or a light at
+//! the observer, is shaded anew for every view. Polygons are planar; meshes are polygons.
 
 pub mod bricks;
 pub mod classification;

@@ -1,3 +1,5 @@
+//! Facts about classification: its four ways in closed form, and what holds for all of them.
+
 use proptest::prelude::*;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Facts about gel: what is stored, sampled and called interesting.
+
 use super::*;
 
 const SIZE: [usize; 3] = [17, 9, 12];

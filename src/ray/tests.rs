@@ -1,3 +1,5 @@
+//! Facts about views and rays: frames, projections, and the samples that a ray meets.
+
 use super::*;
 
 fn extent() -> Extent {

@@ -1,3 +1,5 @@
+//! Facts about the schedule: its order, its thrift, and how it stops.
+
 use super::*;
 
 #[derive(Clone, PartialEq, Debug)]

@@ -1,3 +1,5 @@
+//! Facts about the shear: columns run along the light, and windows hold what their slices need.
+
 use super::*;
 
 fn grid() -> Grid {

@@ -1,3 +1,5 @@
+//! Facts about slides: where a texture stands before a light, and what a look-up averages.
+
 use super::*;
 use crate::components::Projects;
 use crate::picture::Picture;

@@ -1,0 +1,122 @@
+//! Every scene in `scenes/` is a test: it is read, rendered small, and looks as its golden picture.
+//!
+//! Stand-ins take the place of real data, so that the goldens are the same everywhere. `GELRAY_BLESS=1` writes them anew.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gelray::components::View;
+use gelray::formats::pictures::encoded::to_bytes;
+use gelray::formats::pictures::{read_picture, write_picture};
+use gelray::picture::Picture;
+use gelray::products::Frame;
+use gelray::scene::{EMBEDDED, Source, load};
+use gelray::schedule::{Schedule, Watch};
+use gelray::systems::JOBS;
+
+/// The longest side of a golden, in pixels.
+const LONGEST: u32 = 96;
+
+/// What a channel may differ by, in codes of 255.
+const TOLERANCE: u8 = 2;
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// The names of the files of one ending in a folder, without it, sorted.
+fn names(of: &str, ending: &str) -> Vec<String> {
+    let files = fs::read_dir(folder(of)).unwrap().map(|entry| entry.unwrap().path());
+    let files = files.filter(|path| path.extension().is_some_and(|end| end == ending));
+    let name = |path: PathBuf| path.file_stem().unwrap().to_str().unwrap().to_owned();
+    let mut names: Vec<_> = files.map(name).collect();
+    names.sort();
+    names
+}
+
+/// Renders a scene at the size of a golden; the shape of its picture stays.
+fn rendered(name: &str) -> Result<Picture, String> {
+    let told = |error: gelray::Error| error.to_string();
+    let source = Source::read(folder("scenes").join(format!("{name}.toml"))).map_err(told)?;
+    let mut world = load(&source, &[], &[], false).map_err(told)?.world;
+    for view in world.query_mut::<&mut View>() {
+        let longest = view.size[0].max(view.size[1]).max(LONGEST);
+        view.size = view.size.map(|side| (side * LONGEST).div_ceil(longest));
+    }
+    let schedule = Schedule::new(JOBS).map_err(told)?;
+    schedule.run(&mut world, &Watch::default()).map_err(told)?;
+    let mut frames = world.query::<&Frame>();
+    frames.iter().next().map(|frame| frame.0.clone()).ok_or_else(|| "there is no frame".to_owned())
+}
+
+/// The sRGB codes of a picture over black, and its alpha: what faint colours are hardly seen of hardly counts.
+fn seen(picture: &Picture) -> Vec<u8> {
+    let mut codes = to_bytes(picture);
+    for [color @ .., alpha] in codes.as_chunks_mut::<4>().0 {
+        for code in color {
+            *code = ((u16::from(*code) * u16::from(*alpha) + 127) / 255) as u8;
+        }
+    }
+    codes
+}
+
+fn compared(name: &str, made: &Picture, golden: &Path) -> Result<(), String> {
+    const REMEDY: &str = "render it with GELRAY_BLESS=1, look at it, and commit it if it is right";
+    if !golden.is_file() {
+        return Err(format!("{name}: there is no golden picture; {REMEDY}"));
+    }
+    let kept = read_picture(golden).map_err(|error| error.to_string())?;
+    if made.size != kept.size {
+        return Err(format!("{name}: the golden has {:?} pixels, not {:?}", kept.size, made.size));
+    }
+    let (made, kept) = (seen(made), seen(&kept));
+    let worst = made.iter().zip(&kept).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+    let off = made.iter().zip(&kept).filter(|(a, b)| a.abs_diff(**b) > TOLERANCE).count();
+    if off == 0 {
+        return Ok(());
+    }
+    Err(format!(
+        "{name}: {off} channels differ by more than {TOLERANCE} of 255, the worst by {worst}; {REMEDY}"
+    ))
+}
+
+#[test]
+fn every_scene_looks_as_its_golden_picture() {
+    let bless = std::env::var_os("GELRAY_BLESS").is_some_and(|value| value != "0");
+    let mut faults = Vec::new();
+    for name in names("scenes", "toml") {
+        let golden = folder("tests/goldens").join(format!("{name}.png"));
+        let outcome = rendered(&name).and_then(|made| {
+            if bless {
+                return write_picture(&golden, &made, &[]).map_err(|error| error.to_string());
+            }
+            compared(&name, &made, &golden)
+        });
+        faults.extend(outcome.err());
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_golden_has_its_scene_and_every_scene_is_embedded() {
+    let mut embedded: Vec<_> = EMBEDDED.iter().map(|(name, _)| (*name).to_owned()).collect();
+    embedded.sort();
+    let scenes = names("scenes", "toml");
+    assert_eq!(scenes, embedded);
+    let orphans: Vec<_> =
+        names("tests/goldens", "png").into_iter().filter(|name| !scenes.contains(name)).collect();
+    assert!(orphans.is_empty(), "goldens without a scene: {orphans:?}");
+}
+
+#[test]
+fn a_golden_notices_a_pixel_that_is_off_by_three() {
+    let made = Picture::new([2, 1], vec![[0.5, 0.5, 0.5, 1.0]; 2]).unwrap();
+    let mut pixels = made.pixels.to_vec();
+    pixels[1][1] = 0.52;
+    let other = Picture::new([2, 1], pixels).unwrap();
+    let file = tempfile::Builder::new().suffix(".png").tempfile().unwrap();
+    write_picture(file.path(), &other, &[]).unwrap();
+    assert!(compared("made", &other, file.path()).is_ok());
+    let fault = compared("made", &made, file.path()).unwrap_err();
+    assert!(fault.contains("1 channels differ") && fault.contains("GELRAY_BLESS"), "{fault}");
+}
