@@ -17,6 +17,9 @@ use crate::ray::Camera;
 use crate::samples::{Layout, POSITIONS};
 use crate::shading::{Lamps, Reflectance};
 
+/// How far outside the bounding box of a polygon a ray is sure to miss it, pixels.
+const OUTSIDE: f64 = 1e-6;
+
 /// A polygon of the scene on one view.
 pub struct Seen {
     /// The outlines in window coordinates, pixels; holes as the rest: a position inside an odd number of them is in.
@@ -82,6 +85,8 @@ impl Seen {
                 camera.right * (window.x * camera.pixel) - camera.up * (window.y * camera.pixel);
             -face.normal.dot(world) / facing
         };
+        // The box rejects and never decides: rounding there must not take from a polygon what its neighbour leaves to it.
+        let (low, high) = (low - OUTSIDE, high + OUTSIDE);
         let (center, middle) = camera.project(face.center);
         let (dx, dy) = (across(DVec2::X), across(DVec2::Y));
         let depth = DVec3::new(dx, dy, middle - dx * center.x - dy * center.y);
@@ -169,7 +174,9 @@ impl Polygons {
         // Coincident polygons have one plane but not one centre, so that their depths differ in the last bits.
         for tied in hits.chunk_by_mut(|a, b| b.depth - a.depth <= self.slack) {
             let depth = tied[0].depth;
-            tied.iter_mut().for_each(|hit| hit.depth = depth);
+            for hit in tied.iter_mut() {
+                hit.depth = depth;
+            }
             tied.sort_unstable_by_key(|hit| hit.face);
         }
     }
