@@ -116,7 +116,7 @@ fn paint_without_polygons_runs_no_system_for_what_it_does_not_state() {
         let plan = (job.plan)(&world);
         assert!(plan.bytes() == 0 && !plan.why.is_empty(), "{}", job.name);
     }
-    for entity in world.iter() {
+    for entity in &world {
         assert!(
             !entity.has::<Gradient>() && !entity.has::<Opacity>() && !entity.has::<LitColors>()
         );
