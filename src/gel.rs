@@ -23,7 +23,8 @@ pub const EMPTY: u32 = u32::MAX;
 pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The channels as stored numbers: 1 is `1 / SCALE`.
     fn load(self) -> Vec4;
-    /// The nearest texel; integers clamp to 0..=1.
+    /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
+    /// without opacity are stepped over.
     fn store(channels: Vec4) -> Self;
     /// What a stored number is multiplied by.
     const SCALE: f32;
@@ -44,7 +45,8 @@ impl Texel for [u16; 4] {
         Vec4::from_array(self.map(f32::from))
     }
     fn store(channels: Vec4) -> Self {
-        channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16)
+        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16);
+        if texel[3] == 0 { Self::default() } else { texel }
     }
     const SCALE: f32 = 1.0 / 65535.0;
 }
@@ -54,7 +56,8 @@ impl Texel for [u8; 4] {
         Vec4::from_array(self.map(f32::from))
     }
     fn store(channels: Vec4) -> Self {
-        channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
+        if texel[3] == 0 { Self::default() } else { texel }
     }
     const SCALE: f32 = 1.0 / 255.0;
 }
@@ -67,6 +70,7 @@ pub struct Texels<T>(Arc<Stored<T>>);
 struct Stored<T> {
     counts: [usize; 3],
     table: Vec<u32>,
+    /// The stored bricks, and a last one of zeros that stands for all that are not stored.
     bricks: Vec<[T; TEXELS]>,
 }
 
@@ -105,7 +109,9 @@ impl<T: Texel> Texels<T> {
             *entry = stored.len() as u32;
             stored.push(place(at));
         }
-        let bricks = stored.par_iter().map(|&brick| fill_brick(size, brick, &fill)).collect();
+        let filled = stored.par_iter().map(|&brick| fill_brick(size, brick, &fill));
+        let zeros = rayon::iter::once([T::default(); TEXELS]);
+        let bricks = filled.chain(zeros).collect();
         Self(Arc::new(Stored { counts, table, bricks }))
     }
 
@@ -124,16 +130,17 @@ impl<T: Texel> Texels<T> {
     /// The texels of the stored bricks, x fastest.
     #[must_use]
     pub fn bricks(&self) -> &[[T; TEXELS]] {
-        &self.0.bricks
+        &self.0.bricks[..self.0.bricks.len() - 1]
     }
 
-    /// Tri-linear interpolation in a cell of stored brick `brick`: `cell` in 0..8, `at` in 0..1 within the cell.
+    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
+    /// 0..1 within the cell.
     ///
     /// The result is associated RGBA per opacity unit; exactly zero where all eight texels are.
     #[must_use]
     #[inline]
     pub fn sample(&self, brick: u32, cell: [usize; 3], at: Vec3) -> Vec4 {
-        let texels = &self.0.bricks[brick as usize];
+        let texels = &self.0.bricks[(brick as usize).min(self.0.bricks.len() - 1)];
         let first = ((cell[2] & 7) * ROW + (cell[1] & 7)) * ROW + (cell[0] & 7);
         let row = |offset: usize| {
             let pair = &texels[first + offset..first + offset + 2];
@@ -220,7 +227,7 @@ macro_rules! with_texels {
 }
 
 impl Gel {
-    /// [`Texels::make`] in the type of `kind`.
+    /// [`Texels::make`] in the type of `kind`; in 32 bits where that is left open.
     pub fn make(
         kind: TexelKind,
         size: [usize; 3],
@@ -228,9 +235,19 @@ impl Gel {
         fill: impl Fn([usize; 3], &mut [Vec4]) + Sync,
     ) -> Self {
         match kind {
-            TexelKind::F32 => Self::F32(Texels::make(size, holds, fill)),
+            TexelKind::Auto | TexelKind::F32 => Self::F32(Texels::make(size, holds, fill)),
             TexelKind::U16 => Self::U16(Texels::make(size, holds, fill)),
             TexelKind::U8 => Self::U8(Texels::make(size, holds, fill)),
+        }
+    }
+
+    /// The numbers that it is kept in.
+    #[must_use]
+    pub fn kind(&self) -> TexelKind {
+        match self {
+            Self::F32(_) => TexelKind::F32,
+            Self::U16(_) => TexelKind::U16,
+            Self::U8(_) => TexelKind::U8,
         }
     }
 
@@ -246,7 +263,7 @@ impl Gel {
 pub fn most_bytes(kind: TexelKind, size: [usize; 3]) -> u64 {
     let bricks: u64 = size.iter().map(|n| n.div_ceil(CELLS) as u64).product();
     let texel = match kind {
-        TexelKind::F32 => 16,
+        TexelKind::Auto | TexelKind::F32 => 16,
         TexelKind::U16 => 8,
         TexelKind::U8 => 4,
     };

@@ -95,7 +95,7 @@ pub struct Walk {
     last: [i64; 3],
     /// Voxel indices a step, fixed-point.
     pub step: [i64; 3],
-    /// 1 / |step|, a hair less, in 1 / fixed-point units; infinite along an axis that the rays do not move on.
+    /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the rays do not move on.
     pub per_step: [f64; 3],
 }
 
@@ -124,7 +124,7 @@ impl Walk {
             ));
         }
         let step = step.to_array().map(|s| (s * UNIT).round() as i64);
-        let per_step = step.map(|s| (1.0 - 1e-12) / (s.unsigned_abs() as f64));
+        let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
         let last = grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS);
         Ok(Self { world_to_index, distance, forward: camera.forward, last, step, per_step })
     }

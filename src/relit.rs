@@ -1,11 +1,15 @@
 //! A layer of opacities and colours under its lights: `c_T = Σ c_i β_i` (equation 4), made into gel.
 
 use glam::{Vec3, Vec4};
+use rayon::prelude::*;
 
-use crate::bricks::{Bricks, EDGE};
+use crate::bricks::{Bricks, EDGE, Place};
 use crate::components::TexelKind;
 use crate::gel::Gel;
 use crate::products::LightStrength;
+
+/// Gel that is nowhere more opaque than this is kept in 32 bits.
+const FAINT: f32 = 1.0 / 16.0;
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
@@ -19,7 +23,7 @@ pub struct Relit<'a> {
 }
 
 impl Relit<'_> {
-    /// The associated gel: `c_T · α` and α.
+    /// The associated gel: `c_T · α` and α. `Auto` is decided by what there is.
     #[must_use]
     pub fn gel(&self, kind: TexelKind) -> Gel {
         let fill = |[x, y, z]: [usize; 3], row: &mut [Vec4]| {
@@ -31,7 +35,26 @@ impl Relit<'_> {
                 self.fill([brick[0] + 1, brick[1], brick[2]], within, next);
             }
         };
+        let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
         Gel::make(kind, self.opacity.size(), |brick| self.holds(brick), fill)
+    }
+
+    /// 16-bit texels where their steps are small against the gel and none of its colours is above 1; else 32-bit ones.
+    fn suited(&self) -> TexelKind {
+        let bricks: Vec<_> = self.opacity.stored().collect();
+        let opaque = bricks.par_iter().any(|(_, alpha)| alpha.iter().any(|alpha| *alpha > FAINT));
+        let bright = |place: Place| {
+            let channel = |bricks: &Bricks<[f32; 3]>| {
+                let colors = bricks.brick(place.brick).into_iter().flatten().flatten();
+                colors.fold(0.0, |most: f32, channel| if *channel > most { *channel } else { most })
+            };
+            let full = |strength: Option<&LightStrength>| strength.map_or(1.0, |s| s.full);
+            let shadowed = self.shadowed.iter();
+            let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
+            channel(self.base) + shadowed > 1.0
+        };
+        let bright = || bricks.par_iter().any(|(place, _)| bright(*place));
+        if opaque && !bright() { TexelKind::U16 } else { TexelKind::F32 }
     }
 
     /// Fills part of a row from the voxels of `brick` at `within` on.
@@ -112,6 +135,23 @@ mod tests {
         let [x, y, z] = voxel.map(|n| n / CELLS);
         let brick = texels.table()[(z * ny + y) * nx + x];
         (brick != EMPTY).then(|| texels.sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO))
+    }
+
+    #[test]
+    fn texels_are_16_bit_for_gel_that_is_opaque_somewhere_and_lit_within_1() {
+        let kind = |alpha: f32, light: f32| {
+            let opacity = Bricks::make(SIZE, |_, brick| {
+                brick.fill(alpha);
+                true
+            });
+            let base = Bricks::make(SIZE, |_, brick| {
+                brick.fill([light, 0.5, 0.0]);
+                true
+            });
+            Relit { opacity: &opacity, base: &base, shadowed: Vec::new() }.suited()
+        };
+        assert_eq!(kind(0.5, 1.0), TexelKind::U16);
+        assert_eq!([kind(0.05, 1.0), kind(0.5, 1.5)], [TexelKind::F32; 2]);
     }
 
     #[test]

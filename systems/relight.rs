@@ -131,8 +131,10 @@ impl Inputs {
                 });
                 let shadowed = shadowed.collect();
                 let lit = Relit { opacity, base: &colors.base, shadowed }.gel(self.texel);
+                // Both parts in the same numbers.
+                let texel = lit.kind();
                 let ambient = colors.ambient.as_ref().map(|ambient| {
-                    Relit { opacity, base: ambient, shadowed: Vec::new() }.gel(self.texel)
+                    Relit { opacity, base: ambient, shadowed: Vec::new() }.gel(texel)
                 });
                 Gel { lit, ambient }
             }

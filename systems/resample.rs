@@ -3,7 +3,7 @@
 //! A colour between positions is the bilinear interpolation of the corners of the smallest region it lies in. A box
 //! one pixel wide over that is integrated exactly, quadrant by quadrant; other pixel filters sum over positions.
 
-use glam::Vec4;
+use glam::{DVec4, Vec3, Vec4};
 use hecs::{Entity, World};
 use rayon::prelude::*;
 
@@ -174,30 +174,36 @@ fn anywhere(array: &SampleArray, lattice: &Lattice, i: usize, j: usize) -> Vec4 
 }
 
 /// Weights of the positions `-reach ..= reach` around a pixel's middle along one axis; they sum to 1.
-fn kernel(filter: PixelFilter) -> Vec<f32> {
+fn kernel(filter: PixelFilter) -> Vec<f64> {
     let reach = filter.reach() as i32;
-    let weights: Vec<f32> =
-        (-reach..=reach).map(|p| filter.weight(p as f32 / POSITIONS as f32)).collect();
-    let sum: f32 = weights.iter().sum();
+    let weights: Vec<f64> =
+        (-reach..=reach).map(|p| f64::from(filter.weight(p as f32 / POSITIONS as f32))).collect();
+    let sum: f64 = weights.iter().sum();
     weights.iter().map(|w| w / sum).collect()
 }
 
+/// The sum over positions, in 64 bits: what is constant stays so to the last bit.
 fn convolved(
     array: &SampleArray,
     lattice: &Lattice,
-    kernel: &[f32],
+    kernel: &[f64],
     x: usize,
     y: usize,
 ) -> [f32; 4] {
     let reach = kernel.len() / 2;
     let first = |pixel: usize| pixel * POSITIONS + array.layout.margin - reach;
-    let mut sum = Vec4::ZERO;
+    let (mut sum, mut excess) = (DVec4::ZERO, 0.0_f32);
     for (dy, wy) in kernel.iter().enumerate() {
         for (dx, wx) in kernel.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            sum += anywhere(array, lattice, first(x) + dx, first(y) + dy) * (wx * wy);
+            let color = anywhere(array, lattice, first(x) + dx, first(y) + dy);
+            excess = excess.max(color.max_element() - color.w);
+            sum += color.as_dvec4() * (wx * wy);
         }
     }
-    // Mitchell's filter has negative lobes: what they leave stays a colour and an opacity.
+    // Mitchell's filter has negative lobes: what they leave stays an opacity, and a colour within it unless there is one
+    // brighter than white around.
+    let sum = sum.as_vec4();
     let alpha = sum.w.clamp(0.0, 1.0);
-    sum.truncate().max(glam::Vec3::ZERO).extend(alpha).to_array()
+    let most = if excess > 1e-6 { f32::INFINITY } else { alpha };
+    sum.truncate().clamp(Vec3::ZERO, Vec3::splat(most)).extend(alpha).to_array()
 }

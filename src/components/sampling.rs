@@ -49,7 +49,7 @@ impl Default for Sampling {
             coarsest: 8,
             finest: 1,
             outlines: true,
-            texel: TexelKind::F32,
+            texel: TexelKind::Auto,
             filter: Filter::Linear,
             pixel_filter: PixelFilter::Box,
         }
@@ -87,6 +87,9 @@ pub enum Skip {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum TexelKind {
+    /// 16-bit fixed point where the gel has an opacity above 1/16 and no colour above 1; 32-bit floats else, and for
+    /// paint in floats.
+    Auto,
     /// 32-bit floats: 16 bytes a voxel.
     F32,
     /// 16-bit fixed point, error 2⁻¹⁷ a channel: 8 bytes a voxel.

@@ -7,7 +7,7 @@ use super::nearest::suggestion;
 use crate::error::Error;
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
-pub static EMBEDDED: [(&str, &str); 10] = [
+pub static EMBEDDED: [(&str, &str); 14] = [
     ("head", include_str!("../../scenes/head.toml")),
     ("minimal_1", include_str!("../../scenes/minimal_1.toml")),
     ("minimal_2", include_str!("../../scenes/minimal_2.toml")),
@@ -16,7 +16,11 @@ pub static EMBEDDED: [(&str, &str); 10] = [
     ("minimal_5", include_str!("../../scenes/minimal_5.toml")),
     ("minimal_6", include_str!("../../scenes/minimal_6.toml")),
     ("figure_06a", include_str!("../../scenes/figure_06a.toml")),
+    ("figure_06b", include_str!("../../scenes/figure_06b.toml")),
     ("figure_07a", include_str!("../../scenes/figure_07a.toml")),
+    ("figure_07b", include_str!("../../scenes/figure_07b.toml")),
+    ("figure_08a", include_str!("../../scenes/figure_08a.toml")),
+    ("figure_08b", include_str!("../../scenes/figure_08b.toml")),
     ("figure_11", include_str!("../../scenes/figure_11.toml")),
 ];
 

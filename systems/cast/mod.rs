@@ -185,8 +185,14 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
             Seen::new(face, camera, Look::new(&shown.surface, face.normal, &inputs.lamps, laid))
         })
     });
-    let polygons = Polygons::new(seen.collect(), &beams, *camera, cue, inputs.strengths.clone());
-    let rays = Rays { camera, polygons, stop: f64::from(inputs.sampling.stop_at), cue };
+    // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
+    let slack = 1e-9 * inputs.extent.radius() + 1e-14 * inputs.extent.center().abs().max_element();
+    let seen = seen.collect();
+    let polygons = Polygons::new(seen, &beams, slack, *camera, cue, inputs.strengths.clone());
+    // A transparency is never under 0: a ray that is not to stop goes on behind what is opaque.
+    let stop_at = f64::from(inputs.sampling.stop_at);
+    let stop = if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY };
+    let rays = Rays { camera, polygons, stop, cue };
     let Some(medium) = &inputs.volume else {
         return rays.refine::<[f32; 4]>(inputs, layout, None, watch);
     };

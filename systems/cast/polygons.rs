@@ -125,6 +125,8 @@ pub struct Polygons {
     /// For each beam: its part of `binned`.
     starts: Vec<u32>,
     binned: Vec<u32>,
+    /// Depths no further apart than this are one, world units.
+    slack: f64,
     cue: Option<Cue>,
     camera: Camera,
     /// β of each light that casts a shadow, where something is in its way.
@@ -132,10 +134,12 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// Sorts the polygons into beams. `strengths` are those of the lights that their looks call shadowed.
+    /// Sorts the polygons into beams. Depths closer than `slack` (world units) differ by rounding alone; `strengths` are
+    /// those of the lights that the looks call shadowed.
     pub fn new(
         faces: Vec<Seen>,
         beams: &Beams,
+        slack: f64,
         camera: Camera,
         cue: Option<Cue>,
         strengths: Vec<Option<LightStrength>>,
@@ -158,7 +162,7 @@ impl Polygons {
                 next[beam] += 1;
             }
         }
-        Self { faces, starts, binned, cue, camera, strengths }
+        Self { faces, starts, binned, slack, cue, camera, strengths }
     }
 
     /// Whether there is no polygon.
@@ -177,6 +181,14 @@ impl Polygons {
             }
         }
         hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.face.cmp(&b.face)));
+        // Coincident polygons have one plane but not one centre, so that their depths differ in the last bits.
+        for tied in hits.chunk_by_mut(|a, b| b.depth - a.depth <= self.slack) {
+            let depth = tied[0].depth;
+            for hit in tied.iter_mut() {
+                hit.depth = depth;
+            }
+            tied.sort_unstable_by_key(|hit| hit.face);
+        }
     }
 
     /// Shades a hit of the ray at `aim`.

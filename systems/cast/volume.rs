@@ -63,7 +63,8 @@ impl Cursor {
     pub fn new(walk: &Walk, samples: Samples, range: [i64; 2], origin: DVec3) -> Self {
         let end = samples.end.min(range[1]);
         let mut cursor = Self { k: samples.first, end, at: samples.at, origin };
-        cursor.advance(walk, range[0].saturating_sub(samples.first).max(0));
+        // `range` may begin at the least of all numbers: no difference of the two is taken before the greater is known.
+        cursor.advance(walk, range[0].max(samples.first) - samples.first);
         cursor
     }
 
@@ -93,7 +94,7 @@ impl Cursor {
 
 impl<T: Texel> Volume<'_, T> {
     /// Goes on to the next sample before number `until` that lies in an interesting cell, and takes it: associated colour
-    /// and opacity per opacity unit. The cursor stays on it.
+    /// and opacity per opacity unit. The cursor stays on it. Without a pyramid that is the very next sample.
     #[inline]
     pub fn next(&self, cursor: &mut Cursor, until: i64, counts: &mut Counts) -> Option<Vec4> {
         if let Some(dust) = &self.dust {
@@ -110,10 +111,7 @@ impl<T: Texel> Volume<'_, T> {
                 continue;
             }
             counts.samples += 1;
-            if stored != EMPTY {
-                return Some(self.sample(stored, cell, cursor));
-            }
-            cursor.advance(&self.walk, 1);
+            return Some(self.sample(stored, cell, cursor));
         }
         None
     }
@@ -129,7 +127,7 @@ impl<T: Texel> Volume<'_, T> {
         while cursor.k < until.min(cursor.end) {
             let cell = cursor.cell();
             let stored = self.gel.table()[self.entry(cell)];
-            let gel = if stored == EMPTY { Vec4::ZERO } else { self.sample(stored, cell, cursor) };
+            let gel = self.sample(stored, cell, cursor);
             counts.samples += 1;
             let sample = dust.join(gel, cursor.origin, cursor.k);
             if sample.w > 0.0 {
@@ -181,8 +179,10 @@ impl<T: Texel> Volume<'_, T> {
             let ahead = (cursor.at[axis] ^ !(self.walk.step[axis] >> 63)) & mask;
             ahead as f64 * self.walk.per_step[axis]
         };
-        // Infinite along all axes only if the rays stand still, which `Walk::new` refuses.
-        room(0).min(room(1)).min(room(2)) as i64 + 1
+        // Written out: `f64::min` would look for NaN, which cannot be.
+        let (x, y, z) = (room(0), room(1), room(2));
+        let xy = if y < x { y } else { x };
+        (if z < xy { z } else { xy }) as i64 + 1
     }
 
     /// Composites the gel of the slabs before number `until`, unless the ray is opaque to `stop` before.
@@ -221,3 +221,6 @@ impl<T: Texel> Volume<'_, T> {
         ray
     }
 }
+
+#[cfg(test)]
+mod tests;

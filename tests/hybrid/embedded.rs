@@ -1,0 +1,74 @@
+//! Every scene that is part of the program: sound at a small size, as planned, and thrifty.
+
+use gelray::bricks::Bricks;
+use gelray::components::{Sampling, View};
+use gelray::products::{Frame, Gel, Gradient, LitColors, Opacity, Pyramid, Samples};
+use gelray::scene::EMBEDDED;
+use gelray::systems::JOBS;
+use hecs::{EntityRef, World};
+
+use super::support::{Shown, assert_sound, rendered, run};
+
+/// The bytes that a system's product takes on an entity, where they can be told; `None` without the product.
+fn taken(entity: EntityRef<'_>, system: &str) -> Option<u64> {
+    fn bytes<P: hecs::Component>(entity: EntityRef<'_>, of: impl Fn(&P) -> u64) -> Option<u64> {
+        entity.get::<&P>().map(|product| of(&product))
+    }
+    match system {
+        "gradient" => bytes(entity, |made: &Gradient| made.0.bytes()),
+        "classify" => bytes(entity, |made: &Opacity| made.voxels.bytes()),
+        "shade" => bytes(entity, |made: &LitColors| {
+            let apart = made.shadowed.iter().chain(&made.ambient);
+            made.base.bytes() + apart.map(Bricks::bytes).sum::<u64>()
+        }),
+        "relight" => bytes(entity, |made: &Gel| {
+            made.lit.bytes() + made.ambient.as_ref().map_or(0, gelray::gel::Gel::bytes)
+        }),
+        "pyramid" => bytes(entity, Pyramid::bytes),
+        "cast" => bytes(entity, |made: &Samples| {
+            let array = &made.0;
+            let colors = array.colors.lattice.len() * 16 + array.colors.fine.len() * 256;
+            (colors + array.opened.len() * 4 + array.cast.len() * 2 + array.splits.len()) as u64
+        }),
+        "resample" => bytes(entity, |made: &Frame| made.0.pixels.bytes()),
+        _ => None,
+    }
+}
+
+fn entities(world: &World) -> Vec<hecs::Entity> {
+    world.iter().map(|entity| entity.entity()).collect()
+}
+
+#[test]
+fn every_embedded_scene_is_sound_and_runs_as_planned() {
+    for (name, _) in EMBEDDED {
+        let Shown { mut world, view } = Shown::embedded(name, &[]);
+        let sampling = (*world.get::<&Sampling>(view).unwrap()).clone();
+        world.get::<&mut View>(view).unwrap().size = [20, 24];
+        let plans: Vec<_> = JOBS.iter().map(|job| (job.name, (job.plan)(&world))).collect();
+        let ran = run(&mut world);
+        for (system, plan) in plans {
+            let ran = ran.iter().find(|ran| ran.name == system).unwrap();
+            assert_eq!(ran.made as usize, plan.makes.len(), "{name}: {system}");
+            for entity in entities(&world) {
+                let planned = plan.makes.iter().find(|(planned, _)| *planned == entity);
+                if let Some(taken) = taken(world.entity(entity).unwrap(), system) {
+                    let bytes = planned.map(|(_, bytes)| *bytes);
+                    assert!(bytes >= Some(taken), "{name}: {system} takes {taken} of {bytes:?}");
+                } else {
+                    let known = JOBS[..].iter().any(|job| job.name == system);
+                    assert!(known && planned.is_none_or(|_| other(system)), "{name}: {system}");
+                }
+            }
+        }
+        let made = rendered(&world, view);
+        assert_sound(&made.picture, name);
+        assert!(made.picture.pixels.iter().any(|pixel| pixel[3] > 0.5), "{name} shows something");
+        assert!(run(&mut world).iter().all(|ran| ran.made == 0), "{name}: {sampling:?}");
+    }
+}
+
+/// Systems whose products are not weighed here.
+fn other(system: &str) -> bool {
+    !["gradient", "classify", "shade", "relight", "pyramid", "cast", "resample"].contains(&system)
+}

@@ -1,0 +1,15 @@
+//! Facts about the hybrid ray tracer (paper §2 and §6): closed forms, what is lossless, what is thrifty, what is watertight.
+
+mod adaptive;
+mod closed_forms;
+mod colors;
+mod convergence;
+mod embedded;
+mod extremes;
+mod filters;
+mod layers;
+mod lossless;
+mod stopping;
+mod support;
+mod thrift;
+mod watertight;
