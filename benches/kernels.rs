@@ -34,7 +34,7 @@ fn sample(bencher: Bencher, kind: TexelKind) {
         .collect();
     bencher.counter(ItemsCount::new(places.len())).bench(|| {
         with_texels!(black_box(&gel), texels => {
-            let sampled = places.iter().map(|(cell, at)| texels.sample(0, *cell, *at));
+            let sampled = places.iter().map(|(cell, at)| texels.slices().sample(0, *cell, *at));
             sampled.fold(Vec4::ZERO, |sum, sample| sum + sample)
         })
     });

@@ -133,25 +133,11 @@ impl<T: Texel> Texels<T> {
         &self.0.bricks[..self.0.bricks.len() - 1]
     }
 
-    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
-    /// 0..1 within the cell.
-    ///
-    /// The result is associated RGBA per opacity unit; exactly zero where all eight texels are.
+    /// The arrays behind the pointers, for rays.
     #[must_use]
-    #[inline]
-    pub fn sample(&self, brick: u32, cell: [usize; 3], at: Vec3) -> Vec4 {
-        let texels = &self.0.bricks[(brick as usize).min(self.0.bricks.len() - 1)];
-        let first = ((cell[2] & 7) * ROW + (cell[1] & 7)) * ROW + (cell[0] & 7);
-        let row = |offset: usize| {
-            let pair = &texels[first + offset..first + offset + 2];
-            let (low, high) = (pair[0].load(), pair[1].load());
-            low + (high - low) * at.x
-        };
-        let (y0, y1) = (row(0), row(ROW));
-        let z0 = y0 + (y1 - y0) * at.y;
-        let (y0, y1) = (row(ROW * ROW), row(ROW * ROW + ROW));
-        let z1 = y0 + (y1 - y0) * at.y;
-        (z0 + (z1 - z0) * at.z) * T::SCALE
+    pub fn slices(&self) -> TexelSlices<'_, T> {
+        let Stored { counts, table, bricks } = &*self.0;
+        TexelSlices { counts: *counts, table, bricks }
     }
 
     /// Which cells of stored brick `brick` are interesting: bit `8 y + x` of word `z`, set if one of its eight texels
@@ -182,6 +168,46 @@ impl<T: Texel> Texels<T> {
     #[must_use]
     pub fn bytes(&self) -> u64 {
         (self.0.bricks.len() * size_of::<[T; TEXELS]>() + self.0.table.len() * 4) as u64
+    }
+}
+
+/// The arrays of some gel, a pointer nearer.
+#[derive(Debug, Clone, Copy)]
+pub struct TexelSlices<'a, T> {
+    counts: [usize; 3],
+    table: &'a [u32],
+    bricks: &'a [[T; TEXELS]],
+}
+
+impl<T: Texel> TexelSlices<'_, T> {
+    /// The place in the table of the brick around a cell, and what the table says there.
+    #[must_use]
+    #[inline]
+    pub fn brick(self, cell: [usize; 3]) -> (usize, u32) {
+        let [x, y, z] = cell.map(|c| c / CELLS);
+        let entry = (z * self.counts[1] + y) * self.counts[0] + x;
+        (entry, self.table[entry])
+    }
+
+    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
+    /// 0..1 within the cell.
+    ///
+    /// The result is associated RGBA per opacity unit; exactly zero where all eight texels are.
+    #[must_use]
+    #[inline]
+    pub fn sample(self, brick: u32, cell: [usize; 3], at: Vec3) -> Vec4 {
+        let texels = &self.bricks[(brick as usize).min(self.bricks.len() - 1)];
+        let first = ((cell[2] & 7) * ROW + (cell[1] & 7)) * ROW + (cell[0] & 7);
+        let row = |offset: usize| {
+            let pair = &texels[first + offset..first + offset + 2];
+            let (low, high) = (pair[0].load(), pair[1].load());
+            low + (high - low) * at.x
+        };
+        let (y0, y1) = (row(0), row(ROW));
+        let z0 = y0 + (y1 - y0) * at.y;
+        let (y0, y1) = (row(ROW * ROW), row(ROW * ROW + ROW));
+        let z1 = y0 + (y1 - y0) * at.y;
+        (z0 + (z1 - z0) * at.z) * T::SCALE
     }
 }
 

@@ -50,24 +50,39 @@ impl Pyramid {
         Self(Arc::new(Levels { cells, empty }))
     }
 
-    /// The interesting cells of a stored brick: bit `8 y + x` of word `z`.
+    /// The arrays behind the pointer, for rays.
     #[must_use]
-    #[inline]
-    pub fn cells(&self, brick: u32) -> &[u64; CELLS] {
-        &self.0.cells[brick as usize]
-    }
-
-    /// For the brick at `entry` of the gel's table, which is not stored: the highest empty level around it, at least 3.
-    #[must_use]
-    #[inline]
-    pub fn empty_level(&self, entry: usize) -> u32 {
-        u32::from(self.0.empty[entry])
+    pub fn slices(&self) -> PyramidSlices<'_> {
+        PyramidSlices { cells: &self.0.cells, empty: &self.0.empty }
     }
 
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         (self.0.cells.len() * size_of::<[u64; CELLS]>() + self.0.empty.len()) as u64
+    }
+}
+
+/// The arrays of a pyramid, a pointer nearer.
+#[derive(Debug, Clone, Copy)]
+pub struct PyramidSlices<'a> {
+    cells: &'a [[u64; CELLS]],
+    empty: &'a [u8],
+}
+
+impl<'a> PyramidSlices<'a> {
+    /// The interesting cells of a stored brick: bit `8 y + x` of word `z`.
+    #[must_use]
+    #[inline]
+    pub fn cells(self, brick: u32) -> &'a [u64; CELLS] {
+        &self.cells[brick as usize]
+    }
+
+    /// For the brick at `entry` of the gel's table, which is not stored: the highest empty level around it, at least 3.
+    #[must_use]
+    #[inline]
+    pub fn empty_level(self, entry: usize) -> u32 {
+        u32::from(self.empty[entry])
     }
 }
 
@@ -125,9 +140,10 @@ mod tests {
         };
         let gel = Texels::<[f32; 4]>::make([64, 32, 32], |brick| brick == [0, 0, 0], fill);
         let pyramid = Pyramid::of(&gel);
-        let level = |x: usize, y: usize, z: usize| pyramid.empty_level((z * 4 + y) * 8 + x);
+        let level =
+            |x: usize, y: usize, z: usize| pyramid.slices().empty_level((z * 4 + y) * 8 + x);
         assert_eq!([level(1, 0, 0), level(2, 0, 0), level(4, 0, 0), level(0, 0, 3)], [3, 4, 5, 4]);
-        assert_eq!(pyramid.cells(0), &[1, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(pyramid.slices().cells(0), &[1, 0, 0, 0, 0, 0, 0, 0]);
     }
 
     #[test]

@@ -134,7 +134,8 @@ mod tests {
         let [nx, ny, _] = texels.counts();
         let [x, y, z] = voxel.map(|n| n / CELLS);
         let brick = texels.table()[(z * ny + y) * nx + x];
-        (brick != EMPTY).then(|| texels.sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO))
+        (brick != EMPTY)
+            .then(|| texels.slices().sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO))
     }
 
     #[test]

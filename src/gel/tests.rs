@@ -32,7 +32,7 @@ fn error<T: Texel>() -> f32 {
         let brick = cell.map(|c| c / CELLS);
         let entry = gel.table()[(brick[2] * 2 + brick[1]) * 3 + brick[0]];
         if entry != EMPTY {
-            let sample = gel.sample(entry, cell.map(|c| c % CELLS), at.fract());
+            let sample = gel.slices().sample(entry, cell.map(|c| c % CELLS), at.fract());
             worst = worst.max((sample - linear(at)).abs().max_element());
         }
     }
@@ -50,8 +50,11 @@ fn a_sample_interpolates_linearly_across_brick_borders() {
 fn beyond_the_last_voxel_is_nothing() {
     let gel = gel::<[f32; 4]>();
     let last = gel.table()[gel.table().len() - 1];
-    assert_eq!(gel.sample(last, [1, 1, 4], Vec3::ONE), Vec4::ZERO);
-    assert_eq!(gel.sample(last, [0, 0, 3], Vec3::ZERO), linear(Vec3::new(16.0, 8.0, 11.0)));
+    assert_eq!(gel.slices().sample(last, [1, 1, 4], Vec3::ONE), Vec4::ZERO);
+    assert_eq!(
+        gel.slices().sample(last, [0, 0, 3], Vec3::ZERO),
+        linear(Vec3::new(16.0, 8.0, 11.0))
+    );
 }
 
 #[test]

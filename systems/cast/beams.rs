@@ -73,7 +73,7 @@ impl Beams {
                 (number * part..).zip(entries).filter(|(_, entry)| **entry != EMPTY)
             {
                 let brick = [at % nx, at / nx % ny, at / (nx * ny)].map(|b| b * CELLS);
-                for half in occupied_halves(pyramid.cells(stored)) {
+                for half in occupied_halves(pyramid.slices().cells(stored)) {
                     let first = std::array::from_fn(|axis| brick[axis] + half[axis] * HALF);
                     let (low, high) = box_of.cells(first, grid.size);
                     self.splat(&mut ranges, low, high, distance);

@@ -239,7 +239,16 @@ impl<'a> Rays<'a> {
         let dust = Dust::new(&inputs.shafts, self.camera, distance)
             .map_err(|problem| Error::entity("shaft", problem))?;
         let clear = dust.is_none();
-        let volume = Volume { walk, gel, ambient, pyramid, ratio, distance, cue: self.cue, dust };
+        let volume = Volume {
+            walk,
+            gel: gel.slices(),
+            ambient: ambient.map(Texels::slices),
+            pyramid: pyramid.map(Pyramid::slices),
+            ratio,
+            distance,
+            cue: self.cue,
+            dust,
+        };
         let occupied = pyramid.filter(|_| clear).map(|pyramid| {
             Beams::new(layout).occupied(gel, pyramid, &medium.grid, self.camera, distance)
         });

@@ -4,8 +4,8 @@ use glam::{DVec3, Vec3, Vec4};
 
 use super::shaft::Dust;
 use crate::composite::{Gathered, recolor, thicken};
-use crate::gel::{CELLS, EMPTY, Texel, Texels};
-use crate::pyramid::{Pyramid, empty_level_within};
+use crate::gel::{CELLS, EMPTY, Texel, TexelSlices};
+use crate::pyramid::{PyramidSlices, empty_level_within};
 use crate::ray::{FRACTION_BITS, Samples, Walk};
 use crate::samples::Counts;
 
@@ -33,11 +33,11 @@ pub struct Volume<'a, T> {
     /// How samples walk through it.
     pub walk: Walk,
     /// The gel; its reflected part where `ambient` is apart.
-    pub gel: &'a Texels<T>,
+    pub gel: TexelSlices<'a, T>,
     /// The ambient part of its colour, where reflected light is cued.
-    pub ambient: Option<&'a Texels<T>>,
+    pub ambient: Option<TexelSlices<'a, T>>,
     /// What steps over empty gel; `None`: every sample is taken.
-    pub pyramid: Option<&'a Pyramid>,
+    pub pyramid: Option<PyramidSlices<'a>>,
     /// Δ / u.
     pub ratio: f64,
     /// Δ, world units.
@@ -103,8 +103,7 @@ impl<T: Texel> Volume<'_, T> {
         let until = until.min(cursor.end);
         while cursor.k < until {
             let cell = cursor.cell();
-            let entry = self.entry(cell);
-            let stored = self.gel.table()[entry];
+            let (entry, stored) = self.gel.brick(cell);
             if let Some(level) = self.empty_level(entry, stored, cell) {
                 counts.cells_skipped += 1;
                 cursor.advance(&self.walk, self.leap(cursor, level));
@@ -126,7 +125,7 @@ impl<T: Texel> Volume<'_, T> {
     ) -> Option<Vec4> {
         while cursor.k < until.min(cursor.end) {
             let cell = cursor.cell();
-            let stored = self.gel.table()[self.entry(cell)];
+            let (_, stored) = self.gel.brick(cell);
             let gel = self.sample(stored, cell, cursor);
             counts.samples += 1;
             let sample = dust.join(gel, cursor.origin, cursor.k);
@@ -136,14 +135,6 @@ impl<T: Texel> Volume<'_, T> {
             cursor.advance(&self.walk, 1);
         }
         None
-    }
-
-    /// The place of a cell's brick in the gel's table.
-    #[inline]
-    fn entry(&self, cell: [usize; 3]) -> usize {
-        let [across, down, _] = self.gel.counts();
-        let brick = cell.map(|c| c / CELLS);
-        (brick[2] * down + brick[1]) * across + brick[0]
     }
 
     /// The highest level of the pyramid whose cell around `cell` is known to be empty, if its level-0 cell is.

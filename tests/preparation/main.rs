@@ -75,7 +75,7 @@ fn texel(gel: &GelBricks, voxel: [usize; 3]) -> Vec4 {
     if brick == EMPTY {
         return Vec4::ZERO;
     }
-    texels.sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO)
+    texels.slices().sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO)
 }
 
 /// Every voxel of a grid and where it is in the world.

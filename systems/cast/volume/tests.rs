@@ -5,7 +5,9 @@ use proptest::prelude::*;
 use super::*;
 use crate::components::View;
 use crate::face::Extent;
+use crate::gel::Texels;
 use crate::grid::Grid;
+use crate::pyramid::Pyramid;
 use crate::ray::Camera;
 
 /// Gel in few voxels of a grid, seen from somewhere.
@@ -112,7 +114,7 @@ proptest! {
         let camera = Camera::new(&case.view, &Extent::of(case.grid.corners()).unwrap());
         let walk = Walk::new(&case.grid, &camera, case.distance).unwrap();
         let volume = |pyramid| Volume {
-            walk, gel: &gel, ambient: None, pyramid, ratio: 1.0, distance: case.distance, cue: None, dust: None,
+            walk, gel: gel.slices(), ambient: None, pyramid, ratio: 1.0, distance: case.distance, cue: None, dust: None,
         };
         for (x, y, until) in places {
             // Some rays through the very middle, where views along an axis run in planes of voxels.
@@ -123,7 +125,7 @@ proptest! {
             prop_assert!(all.iter().all(|(k, _)| (samples.first..samples.end).contains(k)));
             // Wherever a polygon interrupts the walk.
             let until = samples.first + i64::from(until);
-            prop_assert_eq!(&taken(&volume(Some(&pyramid)), cursor, until), &all);
+            prop_assert_eq!(&taken(&volume(Some(pyramid.slices())), cursor, until), &all);
         }
     }
 
