@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Light, Material, Order, Surface, Toward};
+use crate::components::{CastsShadow, Light, Material, Order, Shaft, Surface, Toward};
 
 /// How something answers light: the coefficients of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,17 +56,21 @@ pub struct Lamps {
 
 impl Lamps {
     /// The lights of `world` for an observer in direction `observer` (unit vector from the scene towards him).
+    ///
+    /// A beam that passes through the volume without attenuation lights its dust alone: without a light-strength buffer
+    /// nothing says which surfaces it falls on.
     #[must_use]
     pub fn of(world: &World, observer: DVec3) -> Self {
-        let mut query = world.query::<(Entity, &Light, &Order, Option<&CastsShadow>)>();
+        let mut query =
+            world.query::<(Entity, &Light, &Order, Option<&CastsShadow>, Option<&Shaft>)>();
         let mut lights: Vec<_> = query.iter().collect();
-        lights.sort_by_key(|(_, _, order, _)| **order);
+        lights.sort_by_key(|(_, _, order, ..)| **order);
         let mut lamps = Self::default();
-        for (entity, light, _, shadow) in lights {
+        for (entity, light, _, shadow, shaft) in lights {
             let lamp = Lamp::new(light, observer);
             if shadow.is_some() {
                 lamps.shadowed.push((entity, lamp));
-            } else {
+            } else if shaft.is_none() {
                 lamps.plain.push(lamp);
             }
         }
@@ -162,5 +166,22 @@ mod tests {
         let shiny = Reflectance { specular: 1.0, ..MATT };
         assert_eq!(lamp.reflected(Vec3::ONE, Vec3::ZERO, &shiny), Vec3::ZERO);
         assert_eq!(lamp.toward, Vec3::NEG_Y);
+    }
+
+    #[test]
+    fn a_beam_without_shadows_lights_no_surface() {
+        let mut world = World::new();
+        let toward = Toward::Direction([0.0, 0.0, 1.0]);
+        let light = Light { toward, strength: 1.0, color: Color::WHITE };
+        let beam = Shaft { opacity: 0.1, color: None, attenuated: false };
+        world.spawn((Order(0), light.clone()));
+        world.spawn((Order(1), light.clone(), beam));
+        let shadowed = world.spawn((Order(2), light, beam, CastsShadow::default()));
+        let lamps = Lamps::of(&world, DVec3::NEG_Y);
+        assert_eq!(lamps.plain.len(), 1);
+        assert_eq!(
+            lamps.shadowed.iter().map(|(entity, _)| *entity).collect::<Vec<_>>(),
+            [shadowed]
+        );
     }
 }

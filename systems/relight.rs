@@ -40,7 +40,7 @@ impl System for Relight {
     #[rustfmt::skip]
     const READS: &'static [Kind] = &[
         Kind::Opacity, Kind::LitColors, Kind::Composite, Kind::Painted, Kind::Grid, Kind::Clip, Kind::LightStrength,
-        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::View, Kind::Sampling,
+        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::Shaft, Kind::View, Kind::Sampling,
     ];
 
     fn run(world: &World, out: &mut Outbox<'_, Gel>) -> Result<(), Error> {

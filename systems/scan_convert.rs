@@ -50,6 +50,7 @@ impl System for ScanConvert {
         Kind::OpacityUnit,
         Kind::Light,
         Kind::CastsShadow,
+        Kind::Shaft,
         Kind::View,
         Kind::DepthCue,
     ];

@@ -36,7 +36,7 @@ impl System for Shade {
     #[rustfmt::skip]
     const READS: &'static [Kind] = &[
         Kind::Scalars, Kind::Gradient, Kind::Opacity, Kind::Classify, Kind::Material, Kind::OpacityUnit,
-        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::View, Kind::DepthCue,
+        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::Shaft, Kind::View, Kind::DepthCue,
     ];
 
     fn run(world: &World, out: &mut Outbox<'_, LitColors>) -> Result<(), Error> {

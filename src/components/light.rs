@@ -70,7 +70,8 @@ pub struct Shaft {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
     /// Whether the volume weakens the beam: that asks for the 3D light-strength buffer. `false`: the beam passes through
-    /// the volume without attenuation, and is drawn without a shadow pass and without a 3D buffer.
+    /// the volume without attenuation, and is drawn without a shadow pass and without a 3D buffer; unless its light
+    /// `casts_shadow`, it then lights no surface.
     #[serde(default = "yes")]
     pub attenuated: bool,
 }

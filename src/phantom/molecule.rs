@@ -1,7 +1,8 @@
-//! A map of electron density by formula: a helix of polypeptide with two rings as of tyrosines (the paper's figure 12).
+//! A map of electron density by formula: a strand of polypeptide with two tyrosines (the paper's figure 12).
 //!
 //! The density of an atom is a Gaussian whose integral is its number of electrons and whose width grows towards the
 //! ends of side chains, as atoms there move more. Lengths are in ångström; the map's mean is 0, as of a measured map.
+//! The strand lies in the map as that of residues 78 to 83 lies in a map of ribonuclease Sa, for which it stands in.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -13,22 +14,29 @@ use crate::grid::{Scalars, Shared};
 const SIDE: usize = 96;
 const SPACING: f32 = 0.42;
 
-/// Residues of the helix; it rises 1.5 Å and turns 100° with each.
-const RESIDUES: usize = 22;
+/// Residues of the strand; it rises 3.4 Å with each, and side chains leave it to the right and to the left in turn.
+const RESIDUES: usize = 12;
+const RISE: f32 = 3.4;
 
-/// The residues that carry a ring: on opposite sides of the helix, face-on when seen from the front.
-const RINGS: [usize; 2] = [7, 16];
+/// The residues that carry a ring: neighbours, and so on opposite sides.
+const RINGS: [usize; 2] = [5, 6];
 
-/// Atoms of a residue's backbone about the helix: radius, degrees, rise and electrons of N, Cα, C, O.
-const BACKBONE: [[f32; 4]; 4] = [
-    [1.55, -28.0, -0.88, 7.0],
-    [2.29, 0.0, 0.0, 6.0],
-    [1.66, 27.0, 1.10, 6.0],
-    [2.00, 25.0, 2.30, 8.0],
-];
+/// The middle of the strand, from that of the map.
+const MIDDLE: Vec3 = Vec3::new(-1.0, 1.5, -2.6);
+/// Where the strand leads, and the direction from which its side chains and rings are seen spread out; nearly at right
+/// angles.
+const ALONG: Vec3 = Vec3::new(0.2, 0.92, 0.33);
+const FACE: Vec3 = Vec3::new(0.0, -0.32, 0.95);
 
-/// Atoms of side chains beyond Cβ, residue by residue, over and over.
-const CHAINS: [usize; 7] = [2, 0, 3, 1, 2, 4, 1];
+/// How far a Cα stands to the side of the strand's axis.
+const PLEAT: f32 = 0.85;
+
+/// Atoms of a peptide from one Cα to the next: along the line between them, aside towards the face, and electrons of C,
+/// O and N.
+const PEPTIDE: [[f32; 3]; 3] = [[1.42, 0.52, 6.0], [1.72, 1.70, 8.0], [2.42, -0.36, 7.0]];
+
+/// Atoms of side chains beyond Cβ, residue by residue; short ones leave the rings free.
+const CHAINS: [usize; RESIDUES] = [2, 1, 3, 0, 0, 0, 0, 0, 0, 3, 1, 2];
 
 /// Blobs of noise: their number, width and the electrons of the strongest.
 const NOISE: (usize, f32, f32) = (900, 1.0, 3.0);
@@ -58,41 +66,61 @@ pub fn molecule() -> Loaded {
     centred([SIDE; 3], [f64::from(SPACING); 3], Scalars::F32(Shared::new(density)))
 }
 
+/// Unit vectors: to the right of the strand as seen from its face, along it, and towards the face.
+fn frame() -> [Vec3; 3] {
+    let face = FACE.normalize();
+    let along = (ALONG - face * face.dot(ALONG)).normalize();
+    [along.cross(face), along, face]
+}
+
+/// 1 where a residue's side chain leaves to the right, −1 to the left.
+fn side(number: usize) -> f32 {
+    if number.is_multiple_of(2) { 1.0 } else { -1.0 }
+}
+
+/// The Cα of a residue; the strand is pleated.
+fn alpha_carbon(number: f32, side: f32) -> Vec3 {
+    let [right, along, _] = frame();
+    let rise = RISE * (number - 0.5 * (RESIDUES as f32 - 1.0));
+    MIDDLE + along * rise + right * (PLEAT * side)
+}
+
 /// The atoms of one residue: backbone, Cβ, and a side chain or a ring.
 fn residue(number: usize) -> Vec<Atom> {
-    let turn = 100.0 * number as f32 + 20.0;
-    let middle = 0.75 * (RESIDUES as f32 - 1.0) + 0.6;
-    let place = |radius: f32, degrees: f32, rise: f32| {
-        let (sine, cosine) = libm::sincosf((turn + degrees).to_radians());
-        Vec3::new(radius * cosine, radius * sine, 1.5 * number as f32 + rise - middle)
+    let [right, along, face] = frame();
+    let (n, side) = (number as f32, side(number));
+    let alpha = alpha_carbon(n, side);
+    // Peptides face one way and the other in turn; the N belongs to the peptide before.
+    let peptide = |from: Vec3, to: Vec3, towards: f32, [far, aside, electrons]: [f32; 3]| {
+        let place = from + (to - from).normalize() * far + face * (aside * towards);
+        Atom { place, width: 0.43, electrons }
     };
-    let mut atoms: Vec<Atom> = BACKBONE
-        .map(|[r, degrees, rise, electrons]| Atom {
-            place: place(r, degrees, rise),
-            width: 0.43,
-            electrons,
-        })
-        .to_vec();
-    let root = place(3.3, -18.0, -0.7);
-    atoms.push(Atom { place: root, width: 0.48, electrons: 6.0 });
-    let (sine, cosine) = libm::sincosf((turn - 20.0).to_radians());
-    let out = Vec3::new(cosine, sine, -0.15).normalize();
+    let [before, after] = [n - 1.0, n + 1.0].map(|n| alpha_carbon(n, -side));
+    let out = (right + along * 0.8).normalize() * side;
+    let root = alpha + (out - face * (0.4 * side)).normalize() * 1.53;
+    let mut atoms = vec![
+        peptide(before, alpha, -side, PEPTIDE[2]),
+        Atom { place: alpha, width: 0.43, electrons: 6.0 },
+        peptide(alpha, after, side, PEPTIDE[0]),
+        peptide(alpha, after, side, PEPTIDE[1]),
+        Atom { place: root, width: 0.48, electrons: 6.0 },
+    ];
     if RINGS.contains(&number) {
         atoms.extend(ring(root + out * 1.51, out));
     } else {
-        atoms.extend(chain(root, out, CHAINS[number % CHAINS.len()]));
+        atoms.extend(chain(root, out, CHAINS[number]));
     }
     atoms
 }
 
-/// A six-membered ring of carbon from its first atom outwards, in the plane of `out` and the helix, with its oxygen.
+/// A six-membered ring of carbon from its first atom outwards, face-on to the face, with its oxygen.
 fn ring(first: Vec3, out: Vec3) -> Vec<Atom> {
-    let up = (Vec3::Z - out * out.z).normalize();
+    let up = FACE.normalize().cross(out);
     let center = first + out * 1.39;
     let mut atoms: Vec<Atom> = (0..6)
         .map(|corner| {
             let (sine, cosine) = libm::sincosf((60.0 * corner as f32).to_radians());
-            Atom { place: center - (out * cosine + up * sine) * 1.39, width: 0.43, electrons: 6.0 }
+            Atom { place: center - (out * cosine + up * sine) * 1.39, width: 0.4, electrons: 6.0 }
         })
         .collect();
     atoms.push(Atom { place: center + out * 2.76, width: 0.5, electrons: 8.0 });
@@ -101,10 +129,11 @@ fn ring(first: Vec3, out: Vec3) -> Vec<Atom> {
 
 /// A zigzag of carbon outwards, each atom less sharp than the last.
 fn chain(root: Vec3, out: Vec3, length: usize) -> Vec<Atom> {
+    let [_, along, _] = frame();
     (1..=length)
         .map(|n| {
             let aside = if n % 2 == 1 { 0.85 } else { 0.0 };
-            let place = root + out * (1.27 * n as f32) + Vec3::Z * aside;
+            let place = root + out * (1.27 * n as f32) + along * aside;
             Atom { place, width: 0.48 + 0.06 * n as f32, electrons: 6.0 }
         })
         .collect()

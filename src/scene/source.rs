@@ -7,7 +7,7 @@ use super::nearest::suggestion;
 use crate::error::Error;
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
-pub static EMBEDDED: [(&str, &str); 14] = [
+pub static EMBEDDED: [(&str, &str); 18] = [
     ("head", include_str!("../../scenes/head.toml")),
     ("minimal_1", include_str!("../../scenes/minimal_1.toml")),
     ("minimal_2", include_str!("../../scenes/minimal_2.toml")),
@@ -21,7 +21,11 @@ pub static EMBEDDED: [(&str, &str); 14] = [
     ("figure_07b", include_str!("../../scenes/figure_07b.toml")),
     ("figure_08a", include_str!("../../scenes/figure_08a.toml")),
     ("figure_08b", include_str!("../../scenes/figure_08b.toml")),
+    ("figure_09", include_str!("../../scenes/figure_09.toml")),
+    ("figure_10", include_str!("../../scenes/figure_10.toml")),
     ("figure_11", include_str!("../../scenes/figure_11.toml")),
+    ("figure_12", include_str!("../../scenes/figure_12.toml")),
+    ("shaft", include_str!("../../scenes/shaft.toml")),
 ];
 
 /// The text of a scene, and the file it was read from.
