@@ -120,7 +120,7 @@ impl<T: Texel> Volume<'_, T> {
         shade: &impl Fn(&Hit) -> Shaded,
         pair: &mut Pair<'_>,
     ) {
-        let gel = self.next(cursor, k + 1, pair.counts);
+        let gel = self.next(cursor, k.saturating_add(1), pair.counts);
         if gel.is_some() {
             cursor.advance(&self.walk, 1);
         }

@@ -19,6 +19,9 @@ use crate::ray::Camera;
 use crate::samples::{Layout, POSITIONS};
 use crate::shading::{Lamps, Reflectance};
 
+/// How far outside the bounding box of a polygon a ray is sure to miss it, pixels.
+const OUTSIDE: f64 = 1e-6;
+
 /// A polygon of the scene on one view.
 pub struct Seen {
     /// The outlines in window coordinates, pixels; holes as the rest: a position inside an odd number of them is in.
@@ -86,6 +89,8 @@ impl Seen {
                 camera.right * (window.x * camera.pixel) - camera.up * (window.y * camera.pixel);
             -face.normal.dot(world) / facing
         };
+        // The box rejects and never decides: rounding there must not take from a polygon what its neighbour leaves to it.
+        let (low, high) = (low - OUTSIDE, high + OUTSIDE);
         let (center, middle) = camera.project(face.center);
         let (dx, dy) = (across(DVec2::X), across(DVec2::Y));
         let depth = DVec3::new(dx, dy, middle - dx * center.x - dy * center.y);

@@ -116,7 +116,7 @@ fn the_opacity_unit_and_the_step_cancel() {
     let field = Field::ball();
     let lengths = |unit: f64, step: f64| -> Vec<f64> {
         let sampling = Sampling { distance_mm: Some(step), ..every_pixel() };
-        let scene = Mixture { sampling, unit, ..field.mixture() }.seen((20.0, 10.0), 7, 16.0);
+        let scene = Mixture { unit, sampling, ..field.mixture() }.seen((20.0, 10.0), 7, 16.0);
         scene.render().rays().map(|(_, _, color)| seen(color) * unit).collect()
     };
     let reference = lengths(1.0, 0.25);

@@ -87,7 +87,7 @@ fn every_filter_leaves_a_linear_ramp_as_it_is() {
                 off = off.max((seen - expected).abs());
             }
         }
-        println!("a ramp through {filter:?} of positions {} apart: off by {off:.1e}", coarsest);
+        println!("a ramp through {filter:?} of positions {coarsest} apart: off by {off:.1e}");
         assert!(off < 1e-6);
     }
 }

@@ -9,6 +9,7 @@ mod extremes;
 mod filters;
 mod layers;
 mod lossless;
+mod scales;
 mod stopping;
 mod support;
 mod thrift;

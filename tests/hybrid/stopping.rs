@@ -10,19 +10,18 @@ use super::support::{Mixture, flat, head, paint, square, worst};
 const STOPS: [f32; 3] = [0.1, 0.02, 0.005];
 
 /// One ray a pixel, so that both pictures are made of the same rays.
-fn stopping(stop_at: f32, sampling: Sampling) -> Sampling {
-    Sampling { stop_at, coarsest: 4, finest: 4, ..sampling }
+fn stopping(stop_at: f32, distance: f64) -> Sampling {
+    let distance_mm = Some(distance);
+    Sampling { distance_mm, stop_at, coarsest: 4, finest: 4, ..Sampling::default() }
 }
 
 #[test]
 fn the_head_stopped_at_epsilon_is_off_by_no_more_than_epsilon() {
     let mut shown = head();
     let small = |view: &mut View| view.size = [90; 2];
-    let sampling =
-        |stop| stopping(stop, Sampling { distance_mm: Some(1.0), ..Sampling::default() });
-    let whole = shown.render(small, sampling(0.0));
+    let whole = shown.render(small, stopping(0.0, 1.0));
     for stop in STOPS {
-        let made = shown.render(small, sampling(stop));
+        let made = shown.render(small, stopping(stop, 1.0));
         let off = worst(&whole.picture, &made.picture);
         let [some, all] = [made.array.counts.samples, whole.array.counts.samples];
         println!("head stopped at {stop}: off by {off:.5} at most, {some} samples of {all}");
@@ -52,8 +51,7 @@ proptest! {
         let scene = Mixture { polygons: polygons.to_vec(), ..Mixture::of(grid, gel) }
             .seen((azimuth, elevation), 9, 20.0);
         let made = |stop: f32| {
-            let sampling = Sampling { distance_mm: Some(ratio * 0.8), ..Sampling::default() };
-            Mixture { sampling: stopping(stop, sampling), ..scene.clone() }.render().picture
+            Mixture { sampling: stopping(stop, ratio * 0.8), ..scene.clone() }.render().picture
         };
         let whole = made(0.0);
         for stop in STOPS {

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use gelray::components::{
-    Color, DepthCue, Name, OpacityUnit, Order, PixelFilter, Sampling, Skip, Surface, View,
+    Color, DepthCue, Name, OpacityUnit, Order, PixelFilter, Sampling, Skip, Surface, TexelKind,
+    View,
 };
 use gelray::face::{Extent, Face, Faces};
 use gelray::grid::{Grid, Painted, Shared};
@@ -181,9 +182,10 @@ pub fn square(center: DVec3, normal: DVec3, half: f64) -> Vec<DVec3> {
         .to_vec()
 }
 
-/// One ray a pixel, at the pixels' middles, and no stopping.
+/// One ray a pixel, at the pixels' middles, no stopping, 32-bit texels.
 pub fn every_pixel() -> Sampling {
-    Sampling { coarsest: 4, finest: 4, stop_at: 0.0, ..Sampling::default() }
+    let texel = TexelKind::F32;
+    Sampling { coarsest: 4, finest: 4, stop_at: 0.0, texel, ..Sampling::default() }
 }
 
 /// A ray at every position, no stopping; empty gel is still stepped over, which loses nothing.
