@@ -97,6 +97,8 @@ pub struct Walk {
     pub step: [i64; 3],
     /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the rays do not move on.
     pub per_step: [f64; 3],
+    /// Whether a step is half a voxel or more: then a cell of eight voxels is not worth a leap.
+    pub is_coarse: bool,
 }
 
 /// The samples of one ray that lie in the domain: numbers `first..end`, and where the first of them is.
@@ -126,7 +128,9 @@ impl Walk {
         let step = step.to_array().map(|s| (s * UNIT).round() as i64);
         let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
         let last = grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS);
-        Ok(Self { world_to_index, distance, forward: camera.forward, last, step, per_step })
+        let is_coarse = most >= 0.5;
+        let forward = camera.forward;
+        Ok(Self { world_to_index, distance, forward, last, step, per_step, is_coarse })
     }
 
     /// The samples in the domain of the ray through world point `origin` at depth 0; `None` if there are none.

@@ -5,6 +5,7 @@
 //! there is no interesting cell.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use crate::gel::{CELLS, EMPTY, Texel, Texels};
 use crate::grid::Grid;
@@ -16,6 +17,8 @@ use crate::samples::{Layout, POSITIONS};
 const PIXELS: usize = 4;
 /// Cells along half a brick's edge: a cell of the pyramid's level 2.
 const HALF: usize = CELLS / 2;
+/// Parts of the table of bricks that are splatted side by side.
+const PARTS: usize = 8;
 /// Positions of the sample array along a beam's side.
 pub const SIDE: usize = PIXELS * POSITIONS;
 
@@ -59,18 +62,32 @@ impl Beams {
         camera: &Camera,
         distance: f64,
     ) -> Occupied {
-        let mut ranges = vec![[i64::MAX, i64::MIN]; self.counts[0] * self.counts[1]];
+        let none = || vec![[i64::MAX, i64::MIN]; self.counts[0] * self.counts[1]];
         let box_of = BoxOf::new(grid, camera);
         let [nx, ny, _] = gel.counts();
-        for (at, &stored) in gel.table().iter().enumerate().filter(|(_, entry)| **entry != EMPTY) {
-            let brick = [at % nx, at / nx % ny, at / (nx * ny)].map(|b| b * CELLS);
-            for half in occupied_halves(pyramid.cells(stored)) {
-                let first = std::array::from_fn(|axis| brick[axis] + half[axis] * HALF);
-                let (low, high) = box_of.cells(first, grid.size);
-                self.splat(&mut ranges, low, high, distance);
+        // Parts enough for the threads, few enough that putting their ranges together costs nothing.
+        let part = gel.table().len().div_ceil(PARTS);
+        let splat = |(number, entries): (usize, &[u32])| {
+            let mut ranges = none();
+            for (at, &stored) in
+                (number * part..).zip(entries).filter(|(_, entry)| **entry != EMPTY)
+            {
+                let brick = [at % nx, at / nx % ny, at / (nx * ny)].map(|b| b * CELLS);
+                for half in occupied_halves(pyramid.cells(stored)) {
+                    let first = std::array::from_fn(|axis| brick[axis] + half[axis] * HALF);
+                    let (low, high) = box_of.cells(first, grid.size);
+                    self.splat(&mut ranges, low, high, distance);
+                }
             }
-        }
-        ranges
+            ranges
+        };
+        let both = |mut a: Occupied, b: Occupied| {
+            for (a, b) in a.iter_mut().zip(b) {
+                *a = [a[0].min(b[0]), a[1].max(b[1])];
+            }
+            a
+        };
+        gel.table().par_chunks(part).enumerate().map(splat).reduce(none, both)
     }
 
     /// Widens the ranges of the beams that a box in window coordinates and depth may be seen through.

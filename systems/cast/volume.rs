@@ -173,6 +173,9 @@ impl<T: Texel> Volume<'_, T> {
     /// past a sample outside that cell.
     #[inline]
     fn leap(&self, cursor: &Cursor, level: u32) -> i64 {
+        if level == 0 && self.walk.is_coarse {
+            return 1;
+        }
         // Cells are aligned: the bits under `mask` are the place in the cell, whose complement is the room ahead.
         let mask = (1_i64 << (level + FRACTION_BITS)) - 1;
         let room = |axis: usize| {
