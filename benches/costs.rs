@@ -188,7 +188,10 @@ fn scan_conversion() {
     for stage in ["scan_convert", "matte"] {
         let Some(ran) = ran.iter().find(|ran| ran.name == stage) else { continue };
         let each = ran.seconds / f64::from(ran.made.max(1));
-        println!("  {stage:46} {each:>9.4} s each of {} (paper: 1 s a polygon)", ran.made);
+        let told = paper_costs(stage).next().map_or_else(String::new, |paper| {
+            format!(" (paper: {} s {})", paper.seconds, paper.what)
+        });
+        println!("  {stage:46} {each:>9.4} s each of {}{told}", ran.made);
     }
     let mut ways = [
         Way::new("polygons scan-converted", &scanned, |_| ()),
