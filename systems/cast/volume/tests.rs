@@ -1,3 +1,5 @@
+//! Facts about samples and leaps on random rays: no leap passes a sample that is not empty, and no sample lies outside the domain.
+
 use glam::{DAffine3, DMat3, DQuat, DVec2};
 use proptest::array::uniform3;
 use proptest::prelude::*;
