@@ -184,7 +184,7 @@ impl<T: Texel> TexelSlices<'_, T> {
     #[must_use]
     #[inline]
     pub fn brick(self, cell: [usize; 3]) -> (usize, u32) {
-        let [x, y, z] = cell.map(|c| c / CELLS);
+        let [x, y, z] = [cell[0] / CELLS, cell[1] / CELLS, cell[2] / CELLS];
         let entry = (z * self.counts[1] + y) * self.counts[0] + x;
         (entry, self.table[entry])
     }

@@ -91,7 +91,7 @@ impl<'a> PyramidSlices<'a> {
 #[must_use]
 #[inline]
 pub fn empty_level_within(cells: &[u64; CELLS], cell: [usize; 3]) -> u32 {
-    let [x, y, z] = cell.map(|c| c & (CELLS - 1));
+    let [x, y, z] = [cell[0] % CELLS, cell[1] % CELLS, cell[2] % CELLS];
     let four = (0x0f0f_0f0f_u64 << (x & 4)) << (8 * (y & 4));
     let slab = &cells[z & 4..(z & 4) + 4];
     if (slab[0] | slab[1] | slab[2] | slab[3]) & four == 0 {

@@ -1,6 +1,6 @@
 //! Parallel rays: the view's frame in the world, and a ray through the voxels of a grid (algorithm §1).
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, I64Vec3};
 
 use crate::components::View;
 use crate::face::Extent;
@@ -92,9 +92,9 @@ pub struct Walk {
     /// Δ, world units.
     distance: f64,
     forward: DVec3,
-    last: [i64; 3],
+    last: I64Vec3,
     /// Voxel indices a step, fixed-point.
-    pub step: [i64; 3],
+    pub step: I64Vec3,
     /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the rays do not move on.
     pub per_step: [f64; 3],
     /// Whether a step is half a voxel or more: then a cell of eight voxels is not worth a leap.
@@ -109,7 +109,7 @@ pub struct Samples {
     /// One past the number of the last.
     pub end: i64,
     /// Fixed-point voxel index of sample `first`.
-    pub at: [i64; 3],
+    pub at: I64Vec3,
 }
 
 impl Walk {
@@ -127,9 +127,10 @@ impl Walk {
         }
         let step = step.to_array().map(|s| (s * UNIT).round() as i64);
         let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
-        let last = grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS);
+        let last = I64Vec3::from(grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS));
         let is_coarse = most >= 0.5;
         let forward = camera.forward;
+        let step = I64Vec3::from(step);
         Ok(Self { world_to_index, distance, forward, last, step, per_step, is_coarse })
     }
 
@@ -162,12 +163,13 @@ impl Walk {
     /// Exactly the samples of `first..end` that are inside, positions counted from the first of them.
     fn cut(&self, start: DVec3, first: i64, end: i64) -> Option<Samples> {
         let middle = first + (end - first) / 2;
-        let place = start + DVec3::from(self.step.map(|s| s as f64 / UNIT)) * middle as f64;
-        let place = place.to_array().map(|p| (p * UNIT).round() as i64);
-        let at = |k: i64| -> [i64; 3] {
-            std::array::from_fn(|axis| place[axis] + self.step[axis] * (k - middle))
+        let place = start + (self.step.as_dvec3() / UNIT) * middle as f64;
+        let place = (place * UNIT).round().as_i64vec3();
+        let at = |k: i64| place + self.step * (k - middle);
+        let inside = |k: i64| {
+            let at = at(k);
+            at.cmpge(I64Vec3::ZERO).all() && at.cmple(self.last).all()
         };
-        let inside = |k: i64| at(k).iter().zip(self.last).all(|(&p, last)| (0..=last).contains(&p));
         let first = (first..end.min(first + 6)).find(|&k| inside(k))?;
         let last = (first.max(end - 6)..end).rev().find(|&k| inside(k))?;
         Some(Samples { first, end: last + 1, at: at(first) })

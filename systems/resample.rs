@@ -69,14 +69,36 @@ struct Lattice {
 
 impl Lattice {
     fn of(array: &SampleArray) -> Self {
-        let [across, down] = array.layout.positions().map(|n| n.div_ceil(POSITIONS));
-        let mut colors = vec![[0.0; 4]; across * down];
-        colors.par_chunks_mut(across).enumerate().for_each(|(y, row)| {
-            for (x, color) in row.iter_mut().enumerate() {
-                *color = between(array, x * POSITIONS, y * POSITIONS, POSITIONS).to_array();
+        let mut lattice =
+            Self { across: array.layout.blocks()[0], colors: array.colors.lattice.clone() };
+        let mut step = array.layout.coarsest / POSITIONS / 2;
+        while step > 0 {
+            lattice.fill(array, step);
+            step /= 2;
+        }
+        lattice
+    }
+
+    /// Interpolates where no ray was cast, half-way on the edges and in the middles of regions of twice `step`.
+    fn fill(&mut self, array: &SampleArray, step: usize) {
+        let down = self.colors.len() / self.across;
+        for y in (0..down).step_by(step) {
+            let odd_row = y / step % 2 == 1;
+            let first = if odd_row { 0 } else { step };
+            for x in (first..self.across).step_by(if odd_row { step } else { 2 * step }) {
+                if array.cast[y * self.across + x] & 1 == 0 {
+                    let color = match (x / step % 2 == 1, odd_row) {
+                        (true, false) => (self.color(x - step, y) + self.color(x + step, y)) * 0.5,
+                        (false, _) => (self.color(x, y - step) + self.color(x, y + step)) * 0.5,
+                        (true, true) => {
+                            let row = |y: usize| self.color(x - step, y) + self.color(x + step, y);
+                            (row(y - step) * 0.5 + row(y + step) * 0.5) * 0.5
+                        }
+                    };
+                    self.colors[y * self.across + x] = color.to_array();
+                }
             }
-        });
-        Self { across, colors }
+        }
     }
 
     /// The colour of position (4 x, 4 y).

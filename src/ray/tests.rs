@@ -50,7 +50,7 @@ fn the_samples_of_a_ray_are_those_within_the_domain() {
         };
         assert!(outside(samples.first - 1) > -1e-9 && outside(samples.end) > -1e-9);
         assert!(outside(samples.first) < 1e-9 && outside(samples.end - 1) < 1e-9);
-        let first = DVec3::from(samples.at.map(|p| p as f64 / UNIT));
+        let first = samples.at.as_dvec3() / UNIT;
         assert!(first.distance(place(samples.first)) < 1e-9);
     }
 }

@@ -46,7 +46,12 @@ struct Pair<'c> {
     counts: &'c mut Counts,
 }
 
-impl Pair<'_> {
+impl<'c> Pair<'c> {
+    fn new(stop: f64, counts: &'c mut Counts) -> Self {
+        let (full, attenuated) = (Gathered::NOTHING, Gathered::NOTHING);
+        Self { full, attenuated, covered: 0.0, stop, counts }
+    }
+
     fn colors(&self) -> Colors {
         let [r, g, b] = self.attenuated.color.to_array();
         Colors { full: self.full, attenuated: [r as f32, g as f32, b as f32, self.covered as f32] }
@@ -84,8 +89,7 @@ impl<T: Texel> Volume<'_, T> {
         stop: f64,
         counts: &mut Counts,
     ) -> Colors {
-        let (full, attenuated) = (Gathered::NOTHING, Gathered::NOTHING);
-        let mut pair = Pair { full, attenuated, covered: 0.0, stop, counts };
+        let mut pair = Pair::new(stop, counts);
         let mut left = hits;
         while let Some(hit) = left.first().filter(|_| pair.open()) {
             let k = (hit.depth / self.distance).floor() as i64;
@@ -103,11 +107,14 @@ impl<T: Texel> Volume<'_, T> {
     }
 
     fn gather_pair(&self, cursor: &mut Cursor, until: i64, pair: &mut Pair<'_>) {
-        while pair.open() {
-            let Some(sample) = self.next(cursor, until, pair.counts) else { break };
-            let (color, opacity) = self.slab(sample);
-            pair.gel(color, opacity);
-            cursor.advance(&self.walk, 1);
+        if pair.open() {
+            let mut counts = Counts::default();
+            self.visit(cursor, until, &mut counts, |sample| {
+                let (color, opacity) = self.slab(sample);
+                pair.gel(color, opacity);
+                pair.open()
+            });
+            *pair.counts += counts;
         }
     }
 
@@ -120,10 +127,11 @@ impl<T: Texel> Volume<'_, T> {
         shade: &impl Fn(&Hit) -> Shaded,
         pair: &mut Pair<'_>,
     ) {
-        let gel = self.next(cursor, k.saturating_add(1), pair.counts);
-        if gel.is_some() {
-            cursor.advance(&self.walk, 1);
-        }
+        let mut gel = None;
+        self.visit(cursor, k.saturating_add(1), pair.counts, |sample| {
+            gel = Some(sample);
+            false
+        });
         let sliver = |pair: &mut Pair<'_>, part: f64| {
             let Some(sample) = gel.filter(|_| part > 0.0) else { return };
             let (color, opacity) = (sample.truncate().as_dvec3(), f64::from(sample.w).min(1.0));
@@ -165,8 +173,7 @@ pub fn polygons_alone(
     stop: f64,
     counts: &mut Counts,
 ) -> Colors {
-    let (full, attenuated) = (Gathered::NOTHING, Gathered::NOTHING);
-    let mut pair = Pair { full, attenuated, covered: 0.0, stop, counts };
+    let mut pair = Pair::new(stop, counts);
     for hit in hits {
         if !pair.open() {
             break;

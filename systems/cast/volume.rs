@@ -1,6 +1,6 @@
 //! What a ray sees of a volume: the next interesting sample, however much empty gel lies before it (paper §6).
 
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, I64Vec3, Vec3, Vec4};
 
 use super::shaft::Dust;
 use crate::composite::{Gathered, recolor, thicken};
@@ -53,7 +53,7 @@ pub struct Volume<'a, T> {
 pub struct Cursor {
     k: i64,
     end: i64,
-    at: [i64; 3],
+    at: I64Vec3,
     /// The ray's world point at depth 0.
     origin: DVec3,
 }
@@ -69,112 +69,139 @@ impl Cursor {
     }
 
     /// A ray that meets no gel.
-    pub const NOWHERE: Self = Self { k: 0, end: 0, at: [0; 3], origin: DVec3::ZERO };
+    pub const NOWHERE: Self = Self { k: 0, end: 0, at: I64Vec3::ZERO, origin: DVec3::ZERO };
 
     #[inline]
     pub fn advance(&mut self, walk: &Walk, steps: i64) {
         self.k += steps;
-        for (at, step) in self.at.iter_mut().zip(walk.step) {
-            *at += step * steps;
-        }
-    }
-
-    #[inline]
-    fn cell(&self) -> [usize; 3] {
-        self.at.map(|p| (p >> FRACTION_BITS) as usize)
-    }
-
-    #[inline]
-    fn within(&self) -> Vec3 {
-        // 24 of the 40 bits behind the point: exact in an f32.
-        let part = |p: i64| ((p >> (FRACTION_BITS - 24)) & 0xff_ffff) as f32 / 16_777_216.0;
-        Vec3::from_array(self.at.map(part))
+        self.at += walk.step * steps;
     }
 }
 
-impl<T: Texel> Volume<'_, T> {
-    /// Goes on to the next sample before number `until` that lies in an interesting cell, and takes it: associated colour
-    /// and opacity per opacity unit. The cursor stays on it. Without a pyramid that is the very next sample.
-    #[inline]
-    pub fn next(&self, cursor: &mut Cursor, until: i64, counts: &mut Counts) -> Option<Vec4> {
-        if let Some(dust) = &self.dust {
-            return self.next_dusty(dust, cursor, until, counts);
-        }
-        let until = until.min(cursor.end);
-        while cursor.k < until {
-            let cell = cursor.cell();
-            let (entry, stored) = self.gel.brick(cell);
-            if let Some(level) = self.empty_level(entry, stored, cell) {
-                counts.cells_skipped += 1;
-                cursor.advance(&self.walk, self.leap(cursor, level));
-                continue;
-            }
-            counts.samples += 1;
-            return Some(self.sample(stored, cell, cursor));
-        }
-        None
-    }
+/// Where in its cell a fixed-point voxel index lies, 0..1.
+#[inline]
+fn within(at: I64Vec3) -> Vec3 {
+    // 24 of the 40 bits behind the point: exact in an f32.
+    let part = |p: i64| ((p >> (FRACTION_BITS - 24)) & 0xff_ffff) as f32 / 16_777_216.0;
+    Vec3::new(part(at.x), part(at.y), part(at.z))
+}
 
-    /// The next sample in which there is gel or dust. Dust may be anywhere: no sample is stepped over.
-    fn next_dusty(
+/// The cell that a fixed-point voxel index lies in.
+#[inline]
+fn cell(at: I64Vec3) -> [usize; 3] {
+    let whole = |p: i64| (p >> FRACTION_BITS) as usize;
+    [whole(at.x), whole(at.y), whole(at.z)]
+}
+
+impl<T: Texel> Volume<'_, T> {
+    /// Takes the samples before number `until` that lie in interesting cells, front to back, until `take` wants no more:
+    /// associated colour and opacity per opacity unit. Without a pyramid, or in dust, that is every sample.
+    #[inline]
+    pub fn visit(
         &self,
-        dust: &Dust,
         cursor: &mut Cursor,
         until: i64,
         counts: &mut Counts,
-    ) -> Option<Vec4> {
-        while cursor.k < until.min(cursor.end) {
-            let cell = cursor.cell();
-            let (_, stored) = self.gel.brick(cell);
-            let gel = self.sample(stored, cell, cursor);
-            counts.samples += 1;
-            let sample = dust.join(gel, cursor.origin, cursor.k);
-            if sample.w > 0.0 {
-                return Some(sample);
+        take: impl FnMut(Vec4) -> bool,
+    ) {
+        let until = until.min(cursor.end);
+        match self.pyramid {
+            Some(pyramid) if self.dust.is_none() => {
+                self.visit_interesting(pyramid, cursor, until, counts, take);
             }
+            _ => self.visit_all(cursor, until, counts, take),
+        }
+    }
+
+    #[inline]
+    fn visit_interesting(
+        &self,
+        pyramid: PyramidSlices<'_>,
+        cursor: &mut Cursor,
+        until: i64,
+        counts: &mut Counts,
+        mut take: impl FnMut(Vec4) -> bool,
+    ) {
+        // Kept in registers: a ray spends its time in this loop.
+        let Cursor { mut k, mut at, .. } = *cursor;
+        let (mut skipped, mut samples) = (0, 0);
+        while k < until {
+            let cell = cell(at);
+            let (entry, stored) = self.gel.brick(cell);
+            let level = if stored == EMPTY {
+                pyramid.empty_level(entry)
+            } else {
+                let cells = pyramid.cells(stored);
+                let [x, y, z] = [cell[0] % CELLS, cell[1] % CELLS, cell[2] % CELLS];
+                if cells[z] >> (y * CELLS + x) & 1 == 1 {
+                    let sample = self.sample(stored, cell, at, k);
+                    samples += 1;
+                    k += 1;
+                    at += self.walk.step;
+                    if take(sample) {
+                        continue;
+                    }
+                    break;
+                }
+                empty_level_within(cells, [x, y, z])
+            };
+            skipped += 1;
+            let steps = self.leap(at, level);
+            k += steps;
+            at += self.walk.step * steps;
+        }
+        (cursor.k, cursor.at) = (k, at);
+        counts.cells_skipped += skipped;
+        counts.samples += samples;
+    }
+
+    fn visit_all(
+        &self,
+        cursor: &mut Cursor,
+        until: i64,
+        counts: &mut Counts,
+        mut take: impl FnMut(Vec4) -> bool,
+    ) {
+        while cursor.k < until {
+            let (k, cell) = (cursor.k, cell(cursor.at));
+            let mut sample = self.sample(self.gel.brick(cell).1, cell, cursor.at, k);
+            if let Some(dust) = &self.dust {
+                sample = dust.join(sample, cursor.origin, k);
+            }
+            counts.samples += 1;
             cursor.advance(&self.walk, 1);
+            if !take(sample) {
+                break;
+            }
         }
-        None
     }
 
-    /// The highest level of the pyramid whose cell around `cell` is known to be empty, if its level-0 cell is.
+    /// Sample `k`, at a place in a cell; with a cue, both parts of its colour together.
     #[inline]
-    fn empty_level(&self, entry: usize, stored: u32, cell: [usize; 3]) -> Option<u32> {
-        let pyramid = self.pyramid?;
-        if stored == EMPTY {
-            return Some(pyramid.empty_level(entry));
-        }
-        let cells = pyramid.cells(stored);
-        let bit = cells[cell[2] % CELLS] >> ((cell[1] % CELLS) * CELLS + cell[0] % CELLS) & 1;
-        (bit == 0).then(|| empty_level_within(cells, cell))
-    }
-
-    /// The sample under the cursor; with a cue, both parts of its colour together.
-    #[inline]
-    fn sample(&self, stored: u32, cell: [usize; 3], cursor: &Cursor) -> Vec4 {
-        let at = cursor.within();
+    fn sample(&self, stored: u32, cell: [usize; 3], at: I64Vec3, k: i64) -> Vec4 {
+        let at = within(at);
         let sample = self.gel.sample(stored, cell, at);
         let (Some(cue), Some(ambient)) = (&self.cue, self.ambient) else { return sample };
-        let factor = cue.factor((cursor.k as f64 + 0.5) * self.distance) as f32;
+        let factor = cue.factor((k as f64 + 0.5) * self.distance) as f32;
         let ambient = ambient.sample(stored, cell, at).truncate();
         (sample.truncate() * factor + ambient).extend(sample.w)
     }
 
-    /// How many samples on the first one beyond the pyramid's cell of `level` around the cursor is: at least 1, and never
+    /// How many samples on the first one beyond the pyramid's cell of `level` around `at` is: at least 1, and never
     /// past a sample outside that cell.
     #[inline]
-    fn leap(&self, cursor: &Cursor, level: u32) -> i64 {
+    fn leap(&self, at: I64Vec3, level: u32) -> i64 {
         if level == 0 && self.walk.is_coarse {
             return 1;
         }
         // Cells are aligned: the bits under `mask` are the place in the cell, whose complement is the room ahead.
         let mask = (1_i64 << (level + FRACTION_BITS)) - 1;
-        let room = |axis: usize| {
-            let ahead = (cursor.at[axis] ^ !(self.walk.step[axis] >> 63)) & mask;
-            ahead as f64 * self.walk.per_step[axis]
-        };
+        let Walk { step, per_step, .. } = self.walk;
+        let ahead = |at: i64, step: i64| ((at ^ !(step >> 63)) & mask) as f64;
+        let x = ahead(at.x, step.x) * per_step[0];
+        let y = ahead(at.y, step.y) * per_step[1];
+        let z = ahead(at.z, step.z) * per_step[2];
         // Written out: `f64::min` would look for NaN, which cannot be.
-        let (x, y, z) = (room(0), room(1), room(2));
         let xy = if y < x { y } else { x };
         (if z < xy { z } else { xy }) as i64 + 1
     }
@@ -189,11 +216,12 @@ impl<T: Texel> Volume<'_, T> {
         ray: &mut Gathered,
         counts: &mut Counts,
     ) {
-        while ray.through > stop {
-            let Some(sample) = self.next(cursor, until, counts) else { break };
-            let (color, opacity) = self.slab(sample);
-            ray.under(color, opacity);
-            cursor.advance(&self.walk, 1);
+        if ray.through > stop {
+            self.visit(cursor, until, counts, |sample| {
+                let (color, opacity) = self.slab(sample);
+                ray.under(color, opacity);
+                ray.through > stop
+            });
         }
     }
 

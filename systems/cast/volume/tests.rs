@@ -96,11 +96,16 @@ type Taken = Vec<(i64, [u32; 4])>;
 fn taken(volume: &Volume<'_, [f32; 4]>, mut cursor: Cursor, until: i64) -> Taken {
     let (mut taken, mut counts) = (Vec::new(), Counts::default());
     for until in [until, i64::MAX] {
-        while let Some(sample) = volume.next(&mut cursor, until, &mut counts) {
+        loop {
+            let mut sample = None;
+            volume.visit(&mut cursor, until, &mut counts, |seen| {
+                sample = Some(seen);
+                false
+            });
+            let Some(sample) = sample else { break };
             if sample != Vec4::ZERO {
-                taken.push((cursor.k, sample.to_array().map(f32::to_bits)));
+                taken.push((cursor.k - 1, sample.to_array().map(f32::to_bits)));
             }
-            cursor.advance(&volume.walk, 1);
         }
     }
     taken
