@@ -7,6 +7,7 @@
 mod adaptive;
 mod band;
 mod beams;
+mod level;
 mod march;
 mod polygons;
 mod receiving;

@@ -78,7 +78,9 @@ impl Beam {
         let Stated { shaft, light, projected, strength } = stated;
         let toward = toward(light, -camera.forward);
         let strength = match (strength, projected) {
-            (Some(strength), _) if shaft.attenuated => Strength::Weakened(Box::new(strength.clone())),
+            (Some(strength), _) if shaft.attenuated => {
+                Strength::Weakened(Box::new(strength.clone()))
+            }
             (_, Some(projected)) => Strength::Profile(Slide::new(projected, toward)?),
             _ => Strength::Full,
         };
