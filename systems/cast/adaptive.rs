@@ -1,7 +1,8 @@
 //! Adaptive sampling and refinement (paper §2 and §6; Levoy, "Volume rendering by adaptive refinement", 1990).
 //!
 //! Rays are first cast on a coarse grid of positions. A square region whose corners differ in C is split into four, down
-//! to a ray a pixel; below that only where the ranges of both C_G and C_A say that a polygon's edge is seen. Level after
+//! to a ray a pixel; below that only where the ranges of both C_G and C_A say that a polygon's edge is seen, at that level
+//! and at those before: C knows textures, and where a texture happens to split a region tells nothing of edges. Level after
 //! level, over bands of beams: which regions split is decided from the level before alone, so that the picture does not
 //! depend on bands or threads.
 
@@ -10,6 +11,7 @@ use rayon::prelude::*;
 
 use super::band::{Band, cut};
 use super::beams::{Beams, SIDE};
+use super::level::Level;
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
@@ -83,33 +85,6 @@ pub struct Refinement<'a, C> {
     counts: Counts,
 }
 
-/// Which regions of one level are split, x fastest.
-struct Level {
-    side: usize,
-    across: usize,
-    split: Vec<bool>,
-}
-
-impl Level {
-    fn split(&self, x: usize, y: usize) -> bool {
-        self.split[y * self.across + x]
-    }
-
-    /// Whether the position `(a, b)` of the lattice twice as fine is new and a corner of a split region's child.
-    fn asks(&self, a: usize, b: usize) -> bool {
-        let (x, y) = (a / 2, b / 2);
-        let split = |x: usize, y: usize| {
-            x < self.across && y * self.across < self.split.len() && self.split(x, y)
-        };
-        match (a % 2, b % 2) {
-            (1, 1) => split(x, y),
-            (1, 0) => split(x, y) || (y > 0 && split(x, y - 1)),
-            (0, 1) => split(x, y) || (x > 0 && split(x - 1, y)),
-            _ => false,
-        }
-    }
-}
-
 impl<'a, C: Caster> Refinement<'a, C> {
     /// A sample array without a ray.
     pub fn new(
@@ -148,14 +123,13 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let mut side = self.layout.coarsest;
         while side > finest && (side > POSITIONS || self.edges.is_some()) {
             let level = self.decide(side, parent.as_ref());
-            note(&mut splits, &level, self.layout.blocks()[0]);
+            level.note(&mut splits, self.layout.blocks()[0]);
             if side == POSITIONS {
                 // The new positions on a region's right and lower edges are its neighbours'.
-                let split = |x: usize, y: usize| {
-                    x < level.across && y * level.across < level.split.len() && level.split(x, y)
-                };
                 self.open(|x, y| {
-                    split(x, y) || (x > 0 && split(x - 1, y)) || (y > 0 && split(x, y - 1))
+                    level.split(x, y)
+                        || (x > 0 && level.split(x - 1, y))
+                        || (y > 0 && level.split(x, y - 1))
                 });
             }
             self.cast_where(side / 2, |a, b| level.asks(a, b), watch)?;
@@ -183,38 +157,40 @@ impl<'a, C: Caster> Refinement<'a, C> {
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
     fn decide(&self, side: usize, parent: Option<&Level>) -> Level {
-        let [across, down] = self.layout.regions.map(|n| n * self.layout.coarsest / side);
-        let mut split = vec![false; across * down];
-        split.par_chunks_mut(across).enumerate().for_each(|(y, row)| {
-            for (x, children) in row.chunks_mut(if parent.is_some() { 2 } else { 1 }).enumerate() {
-                if parent.is_some_and(|parent| !parent.split(x, y / 2)) {
-                    continue;
-                }
-                let first = if parent.is_some() { 2 * x } else { x };
-                for (x, split) in (first..).zip(children) {
-                    *split = self.differs(x * side, y * side, side);
+        let mut level =
+            Level::new(self.layout.regions.map(|n| n * self.layout.coarsest / side), side);
+        let across = level.across;
+        let rows = level.split.par_chunks_mut(across).zip(level.edges.par_chunks_mut(across));
+        rows.enumerate().for_each(|(y, (split, edges))| {
+            for x in 0..across {
+                let above = parent.map_or([true; 2], |parent| parent.at(x / 2, y / 2));
+                if above[0] {
+                    edges[x] = above[1] && self.has_edge(x * side, y * side, side);
+                    split[x] = edges[x] || self.differs(x * side, y * side, side);
                 }
             }
         });
-        Level { side, across, split }
+        level
     }
 
-    /// Whether the corners of a region differ by more than is tolerated.
+    /// Whether a region is split whatever textures show: where corners say that an edge is seen, or an outline crosses it.
+    fn has_edge(&self, i: usize, j: usize, side: usize) -> bool {
+        let above_a_pixel = side > POSITIONS
+            && (self.sampling.tolerance <= 0.0
+                || self.outlines.is_some_and(|outlines| outlines.cross(i, j, side)));
+        let edge = |colors: &Colors| self.range(colors, i, j, side) > self.sampling.edge_tolerance;
+        above_a_pixel || self.edges.as_ref().is_some_and(|edges| edges.iter().all(edge))
+    }
+
+    /// Whether the corners of a region of more than a pixel differ in C by more than is tolerated.
     fn differs(&self, i: usize, j: usize, side: usize) -> bool {
+        side > POSITIONS && self.range(&self.full, i, j, side) > self.sampling.tolerance
+    }
+
+    /// The greatest range of any channel over the corners of a region.
+    fn range(&self, colors: &Colors, i: usize, j: usize, side: usize) -> f32 {
         let corners = [(i, j), (i + side, j), (i, j + side), (i + side, j + side)];
-        let range = |colors: &Colors| {
-            range(corners.map(|(i, j)| colors.value(&self.layout, &self.opened, i, j)))
-        };
-        if side > POSITIONS {
-            let tolerance = self.sampling.tolerance;
-            return tolerance <= 0.0
-                || self.outlines.is_some_and(|outlines| outlines.cross(i, j, side))
-                || range(&self.full) > tolerance;
-        }
-        let tolerance = self.sampling.edge_tolerance;
-        self.edges
-            .as_ref()
-            .is_some_and(|edges| edges.iter().all(|colors| range(colors) > tolerance))
+        range(corners.map(|(i, j)| colors.value(&self.layout, &self.opened, i, j)))
     }
 
     /// Casts a ray at every position of the lattice of `step` positions that is `wanted`, band by band.
@@ -276,17 +252,4 @@ fn range(corners: [[f32; 4]; 4]) -> f32 {
     let high = corners[0].max(corners[1]).max(corners[2].max(corners[3]));
     let low = corners[0].min(corners[1]).min(corners[2].min(corners[3]));
     (high - low).max_element()
-}
-
-/// Notes for the resampling which blocks of 4 × 4 positions were split, and which of their children.
-fn note(splits: &mut [u8], level: &Level, blocks_across: usize) {
-    if level.side > POSITIONS {
-        return;
-    }
-    let per_block = POSITIONS / level.side;
-    for (at, _) in level.split.iter().enumerate().filter(|(_, split)| **split) {
-        let (x, y) = (at % level.across, at / level.across);
-        let bit = if per_block == 1 { 0 } else { 1 + 2 * (y % 2) + x % 2 };
-        splits[(y / per_block) * blocks_across + x / per_block] |= 1 << bit;
-    }
 }

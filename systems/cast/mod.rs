@@ -2,13 +2,15 @@
 //!
 //! `mod` sets a view up and gives each beam of rays what it needs, `beams` says where a beam can meet anything,
 //! `adaptive` says where rays are cast, `march` takes a ray through slabs and slivers, `volume` finds the samples on it,
-//! `polygons` says what it meets.
+//! `polygons` says what it meets, and `receiving` where the shadows on that are read.
 
 mod adaptive;
 mod band;
 mod beams;
+mod level;
 mod march;
 mod polygons;
+mod receiving;
 mod shaft;
 mod texture;
 mod volume;
@@ -182,7 +184,11 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
     let seen = inputs.polygons.iter().flat_map(|shown| {
         shown.faces.0.iter().filter_map(|face| {
             let laid = shown.textured.as_ref().and_then(|by| Laid::new(by, face, camera));
-            Seen::new(face, camera, Look::new(&shown.surface, face.normal, &inputs.lamps, laid))
+            let (normal, lamps) = (face.normal, &inputs.lamps);
+            let ways = inputs.volume.as_ref().map_or_else(Vec::new, |medium| {
+                receiving::ways(normal, lamps, &inputs.strengths, &medium.grid)
+            });
+            Seen::new(face, camera, Look::new(&shown.surface, normal, lamps, ways, laid))
         })
     });
     // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.

@@ -44,13 +44,22 @@ pub struct Look {
     reflected: DVec3,
     /// What it reflects of each light that does, unshadowed.
     shadowed: Vec<DVec3>,
+    /// For each of those lights, the way from a point of it to the one whose strength it gets; empty without strengths.
+    ways: Vec<DVec3>,
     /// Its texture.
     laid: Option<Laid>,
 }
 
 impl Look {
-    /// The look of a face of unit normal `normal`, with the texture that is laid on it.
-    pub fn new(surface: &Surface, normal: DVec3, lamps: &Lamps, laid: Option<Laid>) -> Self {
+    /// The look of a face of unit normal `normal`, with the texture that is laid on it; `ways` are those of
+    /// [`ways`](super::receiving::ways).
+    pub fn new(
+        surface: &Surface,
+        normal: DVec3,
+        lamps: &Lamps,
+        ways: Vec<DVec3>,
+        laid: Option<Laid>,
+    ) -> Self {
         let (how, normal): (Reflectance, Vec3) = (surface.into(), normal.as_vec3());
         let color = surface.color.0;
         let reflected =
@@ -63,6 +72,7 @@ impl Look {
             shadowed: shadowed
                 .map(|(_, lamp)| lamp.reflected(color, normal, &how).as_dvec3())
                 .collect(),
+            ways,
             laid,
         }
     }
@@ -224,15 +234,13 @@ impl Polygons {
 
     /// What a face reflects at a world point of the lights that cast shadows: Σ c_i β_i (equation 4).
     fn shadowed(&self, look: &Look, world: DVec3) -> DVec3 {
-        let beta = |strength: &Option<LightStrength>| {
-            let buffer = strength.as_ref().and_then(|strength| strength.buffer.as_ref());
-            buffer.map_or(1.0, |buffer| f64::from(buffer.biased(world)))
+        let beta = |light: usize| {
+            let strength = self.strengths.get(light).and_then(Option::as_ref);
+            let buffer = strength.and_then(|strength| strength.buffer.as_ref());
+            let way = look.ways.get(light).copied().unwrap_or_default();
+            buffer.map_or(1.0, |buffer| f64::from(buffer.at(world + way)))
         };
-        look.shadowed
-            .iter()
-            .zip(&self.strengths)
-            .map(|(color, strength)| *color * beta(strength))
-            .sum()
+        look.shadowed.iter().enumerate().map(|(light, color)| *color * beta(light)).sum()
     }
 
     /// Which squares of `side` positions the outlines cross.

@@ -1,0 +1,42 @@
+//! Shadows on the polygons of a view: at which point nearer to a light its strength is read (paper §4).
+//!
+//! A polygon casts its shadow as a layer of voxels that reaches some voxels to either side of it. Where the strength were
+//! read within that layer, the polygon would be in a shadow of its own, the more so the flatter the light falls: it is
+//! read from where the light has not met the layer yet, or a bias nearer to the light if that is farther.
+
+use glam::DVec3;
+use hecs::Entity;
+
+use crate::coverage::ball::REACH;
+use crate::grid::Grid;
+use crate::products::LightStrength;
+use crate::shading::{Lamp, Lamps};
+use crate::strength::Shear;
+
+/// The least cosine between a face's normal and a light that the way is stretched by: what light falls flatter than that
+/// is faint, and its way would leave out what else stands in it.
+const FLATTEST: f64 = 0.2;
+
+/// The way from a point on a face of unit normal `normal` to the point whose strength it gets, world units; one for each
+/// light of `lamps` that casts a shadow.
+pub fn ways(
+    normal: DVec3,
+    lamps: &Lamps,
+    strengths: &[Option<LightStrength>],
+    grid: &Grid,
+) -> Vec<DVec3> {
+    let covector = grid.index_to_world.matrix3.transpose() * normal;
+    let way = |((_, lamp), strength): (&(Entity, Lamp), &Option<LightStrength>)| {
+        let toward = lamp.toward.as_dvec3();
+        let bias = strength.as_ref().and_then(|strength| strength.buffer.as_ref());
+        let bias = bias.map_or(0.0, |buffer| buffer.bias().length());
+        // Opacities are interpolated within slices, and strengths between columns and slices: so many cells farther does
+        // the layer reach.
+        let slices = Shear::new(grid, toward).map(|shear| shear.axes[2]);
+        let cells =
+            DVec3::from(std::array::from_fn(|axis| f64::from(2 - u8::from(slices == Some(axis)))));
+        let clear = REACH * covector.length() + covector.abs().dot(cells);
+        toward * bias.max(clear / normal.dot(toward).abs().max(FLATTEST))
+    };
+    lamps.shadowed.iter().zip(strengths).map(way).collect()
+}
