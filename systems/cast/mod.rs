@@ -1,12 +1,13 @@
 //! Casting rays: the hybrid ray tracer of the paper's §2 with the optimisations of its §6.
 //!
-//! `mod` sets a view up and gives each beam of rays what it needs, `beams` says where a beam can meet anything,
+//! `inputs` gathers what a view's rays may meet, `mod` gives each beam of rays what it needs of that, `beams` says where a beam can meet anything,
 //! `adaptive` says where rays are cast, `march` takes a ray through slabs and slivers, `volume` finds the samples on it,
 //! `polygons` says what it meets, and `receiving` where the shadows on that are read.
 
 mod adaptive;
 mod band;
 mod beams;
+mod inputs;
 mod level;
 mod march;
 mod polygons;
@@ -20,20 +21,17 @@ use std::sync::Arc;
 use glam::DVec2;
 use hecs::{Entity, World};
 
-use crate::components::{
-    DepthCue, Light, Order, ProjectedBy, Sampling, Shaft, Surface, TexturedBy, View, Voxelize,
-};
+use crate::components::{DepthCue, Sampling, View};
 use crate::error::Error;
-use crate::face::{Extent, Faces};
+use crate::face::Extent;
 use crate::gel::{Gel as GelBricks, Texel, Texels};
-use crate::grid::Grid;
-use crate::products::{Gel, LightStrength, Pyramid, Samples};
+use crate::products::{Pyramid, Samples};
 use crate::ray::{Camera, Walk};
 use crate::samples::{Counts, Layout, SampleArray};
 use crate::schedule::{Kind, Outbox, Plan, System, Watch};
-use crate::shading::Lamps;
 use adaptive::{Aim, Caster, Ray, Refinement};
 use beams::{Beams, Occupied};
+use inputs::{Inputs, Medium};
 use march::Hit;
 use polygons::{Look, Polygons, Seen};
 use shaft::Dust;
@@ -42,38 +40,6 @@ use volume::{Cue, Cursor, Volume};
 
 /// Casts the rays of every view.
 pub struct Cast;
-
-/// What the rays of a view meet.
-#[derive(PartialEq)]
-struct Inputs {
-    view: View,
-    sampling: Sampling,
-    extent: Extent,
-    cue: Option<DepthCue>,
-    volume: Option<Medium>,
-    polygons: Vec<Shown>,
-    lamps: Lamps,
-    /// β of each light of `lamps` that casts a shadow.
-    strengths: Vec<Option<LightStrength>>,
-    shafts: Vec<shaft::Stated>,
-}
-
-/// Faces that stay polygons, and how they look.
-#[derive(PartialEq)]
-struct Shown {
-    faces: Faces,
-    surface: Surface,
-    textured: Option<TexturedBy>,
-}
-
-/// The gel and where it is.
-#[derive(PartialEq)]
-struct Medium {
-    grid: Grid,
-    gel: Gel,
-    pyramid: Option<Pyramid>,
-    unit: f64,
-}
 
 impl System for Cast {
     type Product = Samples;
@@ -90,23 +56,7 @@ impl System for Cast {
         let mut views = world.query::<(Entity, &View, &Sampling, &Extent, Option<&DepthCue>)>();
         for (entity, view, sampling, extent, cue) in &mut views {
             let camera = Camera::new(view, extent);
-            let polygons = hybrid_polygons(world);
-            let lamps = if polygons.is_empty() {
-                Lamps::default()
-            } else {
-                Lamps::of(world, -camera.forward)
-            };
-            let inputs = Inputs {
-                view: view.clone(),
-                sampling: sampling.clone(),
-                extent: *extent,
-                cue: cue.copied(),
-                volume: medium(world),
-                strengths: strengths(world, &lamps),
-                polygons,
-                lamps,
-                shafts: shafts(world),
-            };
+            let inputs = Inputs::of(world, (view, sampling, *extent, cue.copied()), &camera);
             out.derive(entity, inputs, |inputs| cast(inputs, &camera, watch))?;
         }
         Ok(())
@@ -120,52 +70,6 @@ impl System for Cast {
             views.iter().map(|(entity, view, sampling)| (entity, bytes(view, sampling))).collect();
         Plan { makes, why: "a view is stated" }
     }
-}
-
-/// The polygons that stay polygons, in the order of the scene.
-fn hybrid_polygons(world: &World) -> Vec<Shown> {
-    let mut query =
-        world.query::<(&Order, &Faces, &Surface, Option<&TexturedBy>)>().without::<&Voxelize>();
-    let mut polygons: Vec<_> = query.iter().collect();
-    polygons.sort_by_key(|(order, ..)| **order);
-    let shown = |(_, faces, surface, textured): (_, &Faces, &Surface, Option<&TexturedBy>)| Shown {
-        faces: faces.clone(),
-        surface: surface.clone(),
-        textured: textured.cloned(),
-    };
-    polygons.into_iter().map(shown).collect()
-}
-
-/// The strengths of the lights that cast shadows.
-fn strengths(world: &World, lamps: &Lamps) -> Vec<Option<LightStrength>> {
-    let strength = |light: Entity| world.get::<&LightStrength>(light).ok().map(|s| (*s).clone());
-    lamps.shadowed.iter().map(|(light, _)| strength(*light)).collect()
-}
-
-/// The shafts of light, in the order of the scene.
-fn shafts(world: &World) -> Vec<shaft::Stated> {
-    type Beam<'a> = (&'a Shaft, &'a Light, Option<&'a ProjectedBy>, Option<&'a LightStrength>);
-    let mut query = world.query::<(&Order, Beam<'_>)>();
-    let mut shafts: Vec<_> = query.iter().collect();
-    shafts.sort_by_key(|(order, _)| **order);
-    let stated = |(_, (shaft, light, projected, strength)): (_, Beam<'_>)| shaft::Stated {
-        shaft: *shaft,
-        light: light.clone(),
-        projected: projected.cloned(),
-        strength: strength.filter(|_| shaft.attenuated).cloned(),
-    };
-    shafts.into_iter().map(stated).collect()
-}
-
-fn medium(world: &World) -> Option<Medium> {
-    let mut query =
-        world.query::<(&Grid, &Gel, Option<&Pyramid>, &crate::components::OpacityUnit)>();
-    query.iter().next().map(|(grid, gel, pyramid, unit)| Medium {
-        grid: *grid,
-        gel: gel.clone(),
-        pyramid: pyramid.cloned(),
-        unit: unit.0,
-    })
 }
 
 /// Where the positions of a view's sample array are.

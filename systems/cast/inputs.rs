@@ -1,0 +1,116 @@
+//! What the rays of a view may meet, gathered from the world: equal inputs need no second cast.
+
+use hecs::{Entity, World};
+
+use super::shaft;
+use crate::components::{
+    DepthCue, Light, OpacityUnit, Order, ProjectedBy, Sampling, Shaft, Surface, TexturedBy, View,
+    Voxelize,
+};
+use crate::face::{Extent, Faces};
+use crate::grid::Grid;
+use crate::products::{Gel, LightStrength, Pyramid};
+use crate::ray::Camera;
+use crate::shading::Lamps;
+
+/// What the rays of a view meet.
+#[derive(PartialEq)]
+pub struct Inputs {
+    pub view: View,
+    pub sampling: Sampling,
+    pub extent: Extent,
+    pub cue: Option<DepthCue>,
+    pub volume: Option<Medium>,
+    pub polygons: Vec<Shown>,
+    pub lamps: Lamps,
+    /// β of each light of `lamps` that casts a shadow.
+    pub strengths: Vec<Option<LightStrength>>,
+    pub shafts: Vec<shaft::Stated>,
+}
+
+/// Faces that stay polygons, and how they look.
+#[derive(PartialEq)]
+pub struct Shown {
+    pub faces: Faces,
+    pub surface: Surface,
+    pub textured: Option<TexturedBy>,
+}
+
+/// The gel and where it is.
+#[derive(PartialEq)]
+pub struct Medium {
+    pub grid: Grid,
+    pub gel: Gel,
+    pub pyramid: Option<Pyramid>,
+    pub unit: f64,
+}
+
+impl Inputs {
+    /// What the rays of a view of `world` may meet; `camera` is that view's.
+    pub fn of(
+        world: &World,
+        (view, sampling, extent, cue): (&View, &Sampling, Extent, Option<DepthCue>),
+        camera: &Camera,
+    ) -> Self {
+        let polygons = hybrid_polygons(world);
+        let lamps =
+            if polygons.is_empty() { Lamps::default() } else { Lamps::of(world, -camera.forward) };
+        Self {
+            view: view.clone(),
+            sampling: sampling.clone(),
+            extent,
+            cue,
+            volume: medium(world),
+            strengths: strengths(world, &lamps),
+            polygons,
+            lamps,
+            shafts: shafts(world),
+        }
+    }
+}
+
+/// The polygons that stay polygons, in the order of the scene.
+fn hybrid_polygons(world: &World) -> Vec<Shown> {
+    let mut query =
+        world.query::<(&Order, &Faces, &Surface, Option<&TexturedBy>)>().without::<&Voxelize>();
+    let mut polygons: Vec<_> = query.iter().collect();
+    polygons.sort_by_key(|(order, ..)| **order);
+    let shown = |(_, faces, surface, textured): (_, &Faces, &Surface, Option<&TexturedBy>)| Shown {
+        faces: faces.clone(),
+        surface: surface.clone(),
+        textured: textured.cloned(),
+    };
+    polygons.into_iter().map(shown).collect()
+}
+
+/// The strengths of the lights that cast shadows.
+fn strengths(world: &World, lamps: &Lamps) -> Vec<Option<LightStrength>> {
+    let strength = |light: Entity| world.get::<&LightStrength>(light).ok().map(|s| (*s).clone());
+    lamps.shadowed.iter().map(|(light, _)| strength(*light)).collect()
+}
+
+/// The shafts of light, in the order of the scene.
+fn shafts(world: &World) -> Vec<shaft::Stated> {
+    type Beam<'a> = (&'a Shaft, &'a Light, Option<&'a ProjectedBy>, Option<&'a LightStrength>);
+    let mut query = world.query::<(&Order, Beam<'_>)>();
+    let mut shafts: Vec<_> = query.iter().collect();
+    shafts.sort_by_key(|(order, _)| **order);
+    let stated = |(_, (shaft, light, projected, strength)): (_, Beam<'_>)| shaft::Stated {
+        shaft: *shaft,
+        light: light.clone(),
+        projected: projected.cloned(),
+        strength: strength.filter(|_| shaft.attenuated).cloned(),
+    };
+    shafts.into_iter().map(stated).collect()
+}
+
+/// The gel of the scene's volume.
+fn medium(world: &World) -> Option<Medium> {
+    let mut query = world.query::<(&Grid, &Gel, Option<&Pyramid>, &OpacityUnit)>();
+    query.iter().next().map(|(grid, gel, pyramid, unit)| Medium {
+        grid: *grid,
+        gel: gel.clone(),
+        pyramid: pyramid.cloned(),
+        unit: unit.0,
+    })
+}
