@@ -293,7 +293,8 @@ pub fn most_bytes(kind: TexelKind, size: [usize; 3]) -> u64 {
         TexelKind::U16 => 8,
         TexelKind::U8 => 4,
     };
-    bricks * (TEXELS as u64 * texel + 4)
+    // And the brick of zeros.
+    (bricks + 1) * TEXELS as u64 * texel + bricks * 4
 }
 
 #[cfg(test)]

@@ -64,6 +64,10 @@
 //!   number ([`strength`]).
 //! - **Strengths are swept in columns along the light**, a sheared buffer, so that only opacities are interpolated: one of
 //!   the paper's three resamplings is gone, as its §8 wishes.
+//! - **A traced polygon reads its shadows outside the layer that casts its own**, or at the bias if that is farther.
+//! - **Dust is modelled where light falls on it** (`shaft`): the paper gives every voxel a slight opacity, here a ray adds
+//!   the light's strength times the dust's at its samples, so that the volume keeps its empty space.
+//! - **Gel is kept in 16 bits** where its opacity and light allow (`texel = "auto"`): half the memory that a ray waits for.
 //! - **The reference for texture filters is the exact mean** of square texels over a ray's parallelogram, weighed by area;
 //!   ellipse, trilinear, bilinear and nearest are measured against it.
 //! - **Regions that outlines of polygons cross are split to a ray a pixel from the start** (`outlines`): polygons smaller

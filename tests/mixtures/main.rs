@@ -27,7 +27,7 @@ use glam::DVec3;
 use hecs::{Entity, World};
 
 /// A ray at the middle of every pixel, and none that stops early: what a pixel shows depends on it and its neighbours alone.
-const EVERY_PIXEL: &str = "coarsest = 4, finest = 4, tolerance = 0, stop_at = 0";
+const EVERY_PIXEL: &str = "coarsest = 4, finest = 4, tolerance = 0, stop_at = 0, texel = \"f32\"";
 /// A light from above that casts shadows.
 const KEY: &str = "[[entity]]\nname = \"key\"\nlight = { toward = [0, 0, 1] }\ncasts_shadow = {}\n";
 

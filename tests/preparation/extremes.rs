@@ -111,11 +111,11 @@ fn any_number_of_threads_makes_the_same_bits() {
         let Ball { mut world, volume, .. } = ball();
         pool.install(|| prepare(&mut world));
         let gel = world.get::<&Gel>(volume).unwrap();
-        let GelBricks::F32(texels) = &gel.lit else { panic!("32-bit gel is the default") };
+        let GelBricks::F32(texels) = &gel.lit else { panic!("the view states 32 bits") };
         let bits = texels.bricks().iter().flatten().flatten().map(|channel| channel.to_bits());
         (texels.table().to_vec(), bits.collect::<Vec<_>>())
     };
     let one = made(1);
-    assert!(one.1.iter().any(|bits| *bits != 0));
+    assert!(one.1.iter().any(|channel| *channel != 0));
     assert!(made(2) == one && made(7) == one);
 }

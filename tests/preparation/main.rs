@@ -5,13 +5,15 @@ mod stages;
 mod thrift;
 
 use gelray::components::{
-    Classify, Color, Contour, Light, Material, Name, OpacityUnit, Order, Sampling, Toward, View,
+    Classify, Color, Contour, Light, Material, Name, OpacityUnit, Order, Sampling, TexelKind,
+    Toward, View,
 };
 use gelray::face::Extent;
-use gelray::gel::{CELLS, EMPTY, Gel as GelBricks};
+use gelray::gel::{CELLS, Gel as GelBricks};
 use gelray::grid::{Grid, Scalars, Shared};
 use gelray::schedule::{Ran, Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::with_texels;
 use glam::{DVec3, Vec3, Vec4};
 use hecs::{Entity, World};
 
@@ -63,19 +65,16 @@ fn spawn_light(world: &mut World, order: u32, toward: Toward) -> Entity {
 fn spawn_view(world: &mut World, grid: &Grid) -> Entity {
     let extent = Extent::of(grid.corners()).unwrap();
     let view = View { size: [16, 16], ..View::default() };
-    world.spawn((Name("view".into()), Order(9), view, Sampling::default(), extent))
+    let sampling = Sampling { texel: TexelKind::F32, ..Sampling::default() };
+    world.spawn((Name("view".into()), Order(9), view, sampling, extent))
 }
 
 /// The texel of a voxel; zero where nothing is stored.
 fn texel(gel: &GelBricks, voxel: [usize; 3]) -> Vec4 {
-    let GelBricks::F32(texels) = gel else { panic!("32-bit gel is the default") };
-    let [nx, ny, _] = texels.counts();
-    let [x, y, z] = voxel.map(|n| n / CELLS);
-    let brick = texels.table()[(z * ny + y) * nx + x];
-    if brick == EMPTY {
-        return Vec4::ZERO;
-    }
-    texels.slices().sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO)
+    with_texels!(gel, texels => {
+        let (_, brick) = texels.slices().brick(voxel);
+        texels.slices().sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO)
+    })
 }
 
 /// Every voxel of a grid and where it is in the world.

@@ -120,6 +120,7 @@ fn a_clip_takes_away_half_a_volume_and_half_a_painting_alike() {
     let grid = Grid::axis_aligned([24, 9, 9], [0.5, 1.0, 1.0], [0.0; 3]).unwrap();
     let clip = Clip { planes: vec![[1.0, 0.0, 0.0, 5.0]], r#box: None };
     let mut world = World::new();
+    spawn_view(&mut world, &grid);
     let volume = spawn_volume(&mut world, grid, sampled(&grid, |_| 8.0), contour(8.0));
     let painted = Painted::F32(Shared::new(vec![[1.0, 1.0, 1.0, 0.9]; grid.voxels()]));
     let painting = world.spawn((Order(3), grid, painted));
