@@ -153,15 +153,16 @@ impl<T: Texel> Volume<'_, T> {
     }
 }
 
-/// C_G of a ray: the polygons alone, as associated RGBA; stops on its own (paper §6).
-pub fn geometric(hits: &[Hit], shade: impl Fn(&Hit) -> Shaded, stop: f64) -> [f32; 4] {
+/// C_G of a ray: the polygons alone, as associated RGBA; stops on its own (paper §6). `plain` shades a hit: associated
+/// colour and opacity.
+pub fn geometric(hits: &[Hit], plain: impl Fn(&Hit) -> (DVec3, f64), stop: f64) -> [f32; 4] {
     let mut ray = Gathered::NOTHING;
     for hit in hits {
         if ray.through <= stop {
             break;
         }
-        let met = shade(hit);
-        ray.under(met.plain_color, met.plain_opacity);
+        let (color, opacity) = plain(hit);
+        ray.under(color, opacity);
     }
     ray.rgba(0.0)
 }

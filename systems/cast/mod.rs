@@ -220,8 +220,9 @@ impl<T: Texel> Caster for BeamCaster<'_, T> {
             Some(volume) => volume.march_through(&mut cursor, hits, shade, *stop, counts),
             None => march::polygons_alone(hits, shade, *stop, counts),
         };
+        let plain = |hit: &Hit| polygons.plain(hit);
         let geometric =
-            if self.three_colors { march::geometric(hits, shade, *stop) } else { [0.0; 4] };
+            if self.three_colors { march::geometric(hits, plain, *stop) } else { [0.0; 4] };
         Ray { full: colors.full.rgba(*stop), attenuated: colors.attenuated, geometric }
     }
 }

@@ -206,12 +206,22 @@ impl Polygons {
         }
     }
 
+    /// Associated colour and opacity of a hit, without texture and shadows.
+    pub fn plain(&self, hit: &Hit) -> (DVec3, f64) {
+        let look = &self.faces[hit.face as usize].look;
+        let reflected = look.reflected + look.shadowed.iter().sum::<DVec3>();
+        ((look.ambient + reflected * self.fade(hit)) * look.opacity, look.opacity)
+    }
+
+    /// What the depth cue leaves of the light that is reflected at a hit.
+    fn fade(&self, hit: &Hit) -> f64 {
+        self.cue.map_or(1.0, |cue| cue.factor(hit.depth))
+    }
+
     /// Shades a hit of the ray at `aim`.
     pub fn shade(&self, hit: &Hit, aim: Aim) -> Shaded {
         let look = &self.faces[hit.face as usize].look;
-        let cue = self.cue.map_or(1.0, |cue| cue.factor(hit.depth));
-        let plain = look.ambient + (look.reflected + look.shadowed.iter().sum::<DVec3>()) * cue;
-        let (plain_color, plain_opacity) = (plain * look.opacity, look.opacity);
+        let (plain_color, plain_opacity) = self.plain(hit);
         if look.laid.is_none() && self.strengths.iter().all(Option::is_none) {
             return Shaded {
                 color: plain_color,
@@ -221,7 +231,7 @@ impl Polygons {
             };
         }
         let world = self.camera.origin(aim.window) + self.camera.forward * hit.depth;
-        let lit = look.ambient + (look.reflected + self.shadowed(look, world)) * cue;
+        let lit = look.ambient + (look.reflected + self.shadowed(look, world)) * self.fade(hit);
         let texel =
             look.laid.as_ref().map_or(Vec4::ONE, |laid| laid.at(world, aim.step)).as_dvec4();
         Shaded {
