@@ -2,7 +2,7 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{Classify, OpacityUnit};
+use crate::components::{Classify, OpacityUnit, Order};
 use crate::grid::{Grid, Painted, Scalars};
 
 /// A volume that will be seen.
@@ -14,6 +14,14 @@ pub struct Seen {
     pub size: [usize; 3],
     /// Whether it comes painted, with nothing to classify and shade.
     pub painted: bool,
+}
+
+/// The scene's first volume: its entity, its grid, and its opacity unit (the smallest spacing where none is stated).
+#[must_use]
+pub fn first(world: &World) -> Option<(Entity, Grid, f64)> {
+    let mut query = world.query::<(Entity, &Grid, Option<&OpacityUnit>, Option<&Order>)>();
+    let (entity, grid, unit, _) = query.iter().min_by_key(|(.., order)| order.copied())?;
+    Some((entity, *grid, unit.map_or_else(|| grid.spacing().min_element(), |unit| unit.0)))
 }
 
 /// Volumes of scalars that state how they are classified.

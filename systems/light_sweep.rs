@@ -19,13 +19,14 @@ use crate::bricks::most_bytes;
 use crate::components::{CastsShadow, Light, Name, OpacityUnit, ProjectedBy};
 use crate::error::Error;
 use crate::grid::Grid;
+use crate::observer;
 use crate::products::LightStrength;
 use crate::schedule::{Kind, Outbox, Plan, System, Watch};
 use crate::shading::toward;
 use crate::strength::{Buffer, Falloff, Shear, Slide, quantize};
 use casters::Casters;
 use columns::Columns;
-use inputs::{Inputs, hybrid_coverage, lit_volume, observer, reads_buffer, stated_grid};
+use inputs::{Inputs, hybrid_coverage, lit_volume, reads_buffer, stated_grid};
 use voxels::Voxels;
 
 /// Makes the [`LightStrength`] of every light that `casts_shadow`; other lights cost nothing.
@@ -67,7 +68,7 @@ impl System for LightSweep {
                 unit,
                 opacity: opacity.clone(),
                 polygons: polygons.clone(),
-                toward: toward(light, observer(world, light, &grid)),
+                toward: toward(light, observer::direction(world)),
                 shadow: *shadow,
                 projected: projected.cloned(),
                 buffer: reads_buffer(world, entity),
@@ -95,7 +96,7 @@ impl System for LightSweep {
             );
         };
         let bytes = |(entity, light, shadow): (Entity, &Light, &CastsShadow)| {
-            let toward = toward(light, observer(world, light, &grid));
+            let toward = toward(light, observer::direction(world));
             (entity, most(&grid, toward, shadow, reads_buffer(world, entity)))
         };
         let makes: Vec<_> = lights.into_iter().map(bytes).collect();

@@ -6,7 +6,7 @@ use hecs::{Entity, World};
 use rayon::prelude::*;
 
 use crate::bricks::{self, Bricks, EDGE, Place, VOXELS};
-use crate::components::{CastsShadow, Clip, Light, OpacityUnit, Order, Surface, Voxelize};
+use crate::components::{CastsShadow, Clip, Light, Order, Surface, Voxelize};
 use crate::coverage::matting::{footprint, weights};
 use crate::coverage::{Ball, Flat};
 use crate::error::Error;
@@ -16,6 +16,7 @@ use crate::observer;
 use crate::painting::Painting;
 use crate::products::{Composite, Coverage, Layer, LitColors, Opacity};
 use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::seen;
 
 /// Makes the [`Composite`] of the scene's volume, only if some polygon is scan-converted into it.
 pub struct Matte;
@@ -75,18 +76,16 @@ impl System for Matte {
 
     fn run(world: &World, out: &mut Outbox<'_, Composite>) -> Result<(), Error> {
         let polygons = Polygon::all(world);
-        let Some((entity, grid)) = volume(world).filter(|_| !polygons.is_empty()) else {
+        let Some((entity, grid, unit)) = seen::first(world).filter(|_| !polygons.is_empty()) else {
             return Ok(());
         };
-        let stated = world.get::<&OpacityUnit>(entity);
-        let unit = stated.map_or_else(|_| grid.spacing().min_element(), |unit| unit.0);
         let inputs = Inputs { grid, unit, volume: Volume::of(world, entity), polygons };
         out.derive(entity, inputs, |inputs| Ok(Composite(inputs.composite())))
     }
 
     fn plan(world: &World) -> Plan {
         let voxelized = world.query::<(&Voxelize, &Surface, &Faces)>().iter().next().is_some();
-        let Some((entity, grid)) = volume(world).filter(|_| voxelized) else {
+        let Some((entity, grid, _)) = seen::first(world).filter(|_| voxelized) else {
             return Plan::absent("no polygon is scan-converted into a volume");
         };
         let cued = observer::is_cued(world);
@@ -96,13 +95,6 @@ impl System for Matte {
         let bytes = colors.saturating_add(bricks::most_bytes::<f32>(grid.size));
         Plan { makes: vec![(entity, bytes)], why: "a polygon carries `voxelize`" }
     }
-}
-
-/// The scene's first volume.
-fn volume(world: &World) -> Option<(Entity, Grid)> {
-    let mut query = world.query::<(Entity, &Grid, Option<&Order>)>();
-    let first = query.iter().min_by_key(|(.., order)| order.copied())?;
-    Some((first.0, *first.1))
 }
 
 impl Volume {

@@ -4,9 +4,8 @@ use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 use rayon::prelude::*;
 
-use crate::bricks::Bricks;
-use crate::bricks::VOXELS;
-use crate::components::{CastsShadow, Matte, Name, OpacityUnit, Order, Surface, Voxelize};
+use crate::bricks::{Bricks, VOXELS};
+use crate::components::{CastsShadow, Matte, Name, Surface, Voxelize};
 use crate::coverage::ball::REACH;
 use crate::coverage::{Ball, Covered, Flat};
 use crate::error::Error;
@@ -15,7 +14,8 @@ use crate::grid::Grid;
 use crate::observer;
 use crate::products::{Coverage, Layer, LitColors};
 use crate::schedule::{Kind, Outbox, Plan, System};
-use crate::shading::{Lamps, Reflectance, depends_on_view};
+use crate::seen;
+use crate::shading::{Lamps, Reflectance};
 
 /// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the scene's volume; and where a light
 /// casts shadows, that of the hybrid tracer's polygons too: they cast theirs by it.
@@ -56,14 +56,14 @@ impl System for ScanConvert {
     ];
 
     fn run(world: &World, out: &mut Outbox<'_, Coverage>) -> Result<(), Error> {
-        let (volume, shadows) = (volume(world), casts_shadows(world));
+        let (volume, shadows) = (seen::first(world), casts_shadows(world));
         let ambient_apart = observer::is_cued(world);
         let mut query =
             world.query::<(Entity, &Faces, &Surface, Option<&Voxelize>, Option<&Name>)>();
         for (entity, faces, surface, voxelize, name) in &mut query {
             out.watch().check()?;
             let name = name.map_or("polygon", |name| &name.0);
-            let Some((grid, unit)) = volume.filter(|_| voxelize.is_some() || shadows) else {
+            let Some((_, grid, unit)) = volume.filter(|_| voxelize.is_some() || shadows) else {
                 if voxelize.is_none() {
                     continue;
                 }
@@ -71,7 +71,8 @@ impl System for ScanConvert {
                 return Err(Error::entity(name, problem));
             };
             let colorless = voxelize.is_none();
-            let lamps = if colorless { Lamps::default() } else { lamps(world, surface) };
+            let how = Reflectance::from(surface);
+            let lamps = if colorless { Lamps::default() } else { observer::lamps(world, &how) };
             // Another operator makes no other coverage.
             let voxelize = Voxelize {
                 matte: Matte::default(),
@@ -89,7 +90,7 @@ impl System for ScanConvert {
     }
 
     fn plan(world: &World) -> Plan {
-        let Some((grid, _)) = volume(world) else {
+        let Some((_, grid, _)) = seen::first(world) else {
             return Plan::absent("no volume to scan-convert polygons into");
         };
         let (apart, shadows) = (usize::from(observer::is_cued(world)), casts_shadows(world));
@@ -113,19 +114,6 @@ impl System for ScanConvert {
         }
         Plan { makes, why: "a polygon carries `voxelize`, or casts a shadow into the volume" }
     }
-}
-
-/// The grid and the opacity unit of the scene's first volume; the unit is the smallest spacing where none is stated.
-fn volume(world: &World) -> Option<(Grid, f64)> {
-    let mut query = world.query::<(&Grid, Option<&OpacityUnit>, Option<&Order>)>();
-    let first = query.iter().min_by_key(|(_, _, order)| order.copied())?;
-    Some((*first.0, first.1.map_or_else(|| first.0.spacing().min_element(), |unit| unit.0)))
-}
-
-/// The lights as they fall on a surface; the same for every view where the view does not matter.
-fn lamps(world: &World, surface: &Surface) -> Lamps {
-    let depends = depends_on_view(world, &Reflectance::from(surface));
-    Lamps::of(world, if depends { observer::direction(world) } else { observer::ANYWHERE })
 }
 
 /// Whether some light casts shadows.

@@ -12,7 +12,7 @@ use crate::observer;
 use crate::products::{Gradient, LitColors, Opacity};
 use crate::schedule::{Kind, Outbox, Plan, System, Watch};
 use crate::seen::{self, Seen};
-use crate::shading::{self, Lamp, Lamps, Reflectance};
+use crate::shading::{Lamp, Lamps, Reflectance};
 
 /// Makes the [`LitColors`] of every volume that is classified.
 pub struct Shade;
@@ -61,7 +61,7 @@ impl System for Shade {
                 opacity: opacity.clone(),
                 classify: classify.clone(),
                 unit: *unit,
-                lamps: lamps(world, &material),
+                lamps: observer::lamps(world, &Reflectance::from(&material)),
                 material,
                 apart,
             };
@@ -84,13 +84,6 @@ impl System for Shade {
         }
         Plan { makes, why: "a volume that is classified is shaded by the lights of the scene" }
     }
-}
-
-/// The lights as they fall on the volume. Where the observer makes no difference he is no input: a turn of the view then
-/// shades nothing again.
-fn lamps(world: &World, material: &Material) -> Lamps {
-    let depends = shading::depends_on_view(world, &material.into());
-    Lamps::of(world, if depends { observer::direction(world) } else { observer::ANYWHERE })
 }
 
 impl Inputs {

@@ -52,12 +52,6 @@ impl Buffer {
         (strength / self.falloff.divisor(self.falloff.distance(world))) as f32
     }
 
-    /// β as it falls on something at a world point: that of the point which is the light's bias nearer to the light.
-    #[must_use]
-    pub fn biased(&self, world: DVec3) -> f32 {
-        self.at(world + self.bias)
-    }
-
     /// The way from a point to the one whose strength is used at it: towards the light, world units.
     #[must_use]
     pub fn bias(&self) -> DVec3 {

@@ -4,12 +4,11 @@ use glam::DVec3;
 use hecs::{Entity, World};
 
 use crate::bricks::Bricks;
-use crate::components::{CastsShadow, Light, Order, ProjectedBy, Shaft, Toward, View, Voxelize};
+use crate::components::{CastsShadow, Order, ProjectedBy, Shaft, Voxelize};
 use crate::error::Error;
-use crate::face::{Extent, Faces};
+use crate::face::Faces;
 use crate::grid::{Grid, Painted, Scalars};
 use crate::products::{Composite, Coverage, Opacity};
-use crate::ray::Camera;
 
 /// What one light's strengths are made from. Nothing of a view, but for a light that stands at the observer.
 #[derive(PartialEq)]
@@ -80,17 +79,6 @@ pub(super) fn stated_grid(world: &World) -> Option<Grid> {
     let stated =
         query.iter().filter(|(.., scalars, painted)| scalars.is_some() || painted.is_some());
     stated.min_by_key(|(entity, _, order, ..)| (order.copied(), *entity)).map(|found| *found.1)
-}
-
-/// The direction towards the observer for a light that stands there; for others nothing of the view is read.
-pub(super) fn observer(world: &World, light: &Light, grid: &Grid) -> DVec3 {
-    let (Toward::Observer(_), Some(extent)) = (light.toward, Extent::of(grid.corners())) else {
-        return DVec3::ZERO;
-    };
-    let mut query = world.query::<(Entity, &View, Option<&Order>)>();
-    let view = query.iter().min_by_key(|(entity, _, order)| (order.copied(), *entity));
-    let view = view.map_or_else(View::default, |(_, view, _)| view.clone());
-    -Camera::new(&view, &extent).forward
 }
 
 /// Whether hybrid polygons receive this light, or a shaft of it is seen.

@@ -157,7 +157,7 @@ fn a_bias_of_two_voxels_takes_the_speckle_off_a_noisy_surface() {
             let leak = |seed: u64| {
                 let aside = DVec3::from([0, 1, 2].map(|i| noise(3 * seed + i) - 0.5)) * 0.8;
                 let normal = (toward + aside).normalize();
-                f64::from(buffer.biased(center + normal * (radius - depth)))
+                f64::from(buffer.at(center + normal * (radius - depth) + buffer.bias()))
             };
             (0..500).map(leak).sum::<f64>() / 500.0
         };
