@@ -15,6 +15,9 @@ use super::support::{Mixture, Rendered, bits, every_position, flat, rendered, ru
 const CELLS: usize = 8;
 /// Half its side.
 const HALF: f64 = 4.0;
+/// Moved by less than this part of a cell, four corners stay convex and their triangles tile the cell; beyond it triangles
+/// may fold over each other, and a ray rightly meets three.
+const CONVEX: f64 = 0.5;
 
 /// The square in the plane z = 0 in triangles: a lattice whose inner vertices are moved by up to `jitter` of a cell,
 /// each cell cut along one diagonal or as a fan about a point in it. No vertex lies inside an edge.
@@ -103,12 +106,12 @@ fn edges_that_fall_exactly_on_rays_are_met_once() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 120, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn a_square_of_random_triangles_has_no_gap_and_no_overlap_at_any_angle(
         random in proptest::collection::vec(0.0..1.0, 200),
-        jitter in prop_oneof![Just(0.0), 0.0..0.8],
+        jitter in prop_oneof![Just(0.0), 0.0..CONVEX],
         (azimuth, elevation, roll) in (
             prop_oneof![Just(0.0), Just(90.0), Just(45.0), -180.0..180.0],
             prop_oneof![Just(90.0), Just(-90.0), Just(30.0), 5.0..90.0, 0.1..1.0],
