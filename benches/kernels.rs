@@ -3,12 +3,12 @@
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use gelray::components::{TexelKind, View};
-use gelray::composite::thicken;
-use gelray::gel::{CELLS, Gel};
 use gelray::products::{Gradient, LitColors, Opacity, Pyramid};
 use gelray::scene::{Source, load};
 use gelray::schedule::{Made, Product, Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::view::composite::thicken;
+use gelray::volume::gel::{CELLS, Gel};
 use gelray::{products, with_texels};
 use glam::{Vec3, Vec4};
 use hecs::{Entity, World};

@@ -2,8 +2,8 @@
 
 use divan::{Bencher, black_box};
 use gelray::components::{TextureFilter, Wrap};
-use gelray::picture::Picture;
-use gelray::texture::{Footprint, Texture};
+use gelray::polygon::texture::{Footprint, Texture};
+use gelray::view::picture::Picture;
 use glam::DVec2;
 
 /// Texels that the pixel is wide; it is four times as long.

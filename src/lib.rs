@@ -79,34 +79,19 @@
 //! interpolated, as in the paper, so that what is magnified much looks soft. A material with highlights, or a light at
 //! the observer, is shaded anew for every view. Polygons are planar; meshes are polygons.
 
-pub mod bricks;
-pub mod classification;
-pub mod clipping;
 pub mod components;
-pub mod composite;
-pub mod coverage;
 pub mod error;
-pub mod face;
 pub mod formats;
-pub mod gel;
-pub mod grid;
+pub mod light;
 pub mod measure;
-pub mod observer;
-pub mod painting;
 pub mod phantom;
-pub mod picture;
+pub mod polygon;
 pub mod products;
-pub mod pyramid;
-pub mod ray;
-pub mod relit;
-pub mod samples;
 pub mod scene;
 pub mod schedule;
-pub mod seen;
-pub mod shading;
-pub mod strength;
 #[path = "../systems/mod.rs"]
 pub mod systems;
-pub mod texture;
+pub mod view;
+pub mod volume;
 
 pub use error::Error;

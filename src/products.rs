@@ -1,13 +1,13 @@
 //! What systems make, a product a system: carried by the entity that it was made for, immutable, shared by pointer.
 
-use crate::bricks::Bricks;
-use crate::gel::Gel as GelBricks;
-use crate::grid::Shared;
-use crate::picture::Picture;
-pub use crate::pyramid::Pyramid;
-pub use crate::samples::Samples;
+pub use crate::light::strength::LightStrength;
 use crate::schedule::{Kind, Product};
-pub use crate::strength::LightStrength;
+use crate::view::picture::Picture;
+pub use crate::view::samples::Samples;
+use crate::volume::bricks::Bricks;
+use crate::volume::gel::Gel as GelBricks;
+use crate::volume::grid::Shared;
+pub use crate::volume::pyramid::Pyramid;
 
 /// ∇f at every voxel of a volume (algorithm §2), in scalar units per world unit, world axes; x fastest, dense.
 ///

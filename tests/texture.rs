@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use gelray::components::TextureFilter::{self, Bilinear, Ellipse, Nearest, Trilinear};
 use gelray::components::Wrap;
-use gelray::picture::Picture;
-use gelray::texture::{Footprint, Texture};
+use gelray::polygon::texture::{Footprint, Texture};
+use gelray::view::picture::Picture;
 use glam::{DMat2, DVec2, DVec4, Vec4};
 
 const SIZE: usize = 256;

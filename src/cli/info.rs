@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use gelray::formats::pictures::format_of;
 use gelray::formats::{Loaded, Stated, Voxels, read_volume};
-use gelray::grid::{Grid, Painted, Scalars};
 use gelray::measure::histogram::{Histogram, histogram, suggested_isovalues};
 use gelray::measure::sigma::sigma;
 use gelray::phantom::phantom;
+use gelray::volume::grid::{Grid, Painted, Scalars};
 use glam::DVec3;
 
 use super::bytes::human;

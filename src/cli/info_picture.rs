@@ -4,7 +4,7 @@ use std::path::Path;
 
 use gelray::formats::pictures::format_of;
 use gelray::formats::read_picture;
-use gelray::picture::Picture;
+use gelray::view::picture::Picture;
 
 use super::failure::Failure;
 use super::info::number;

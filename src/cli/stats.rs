@@ -1,9 +1,9 @@
 //! `--stats`: counts, bytes and seconds of a render, under keys that scripts of others depend on.
 
-use gelray::grid::{Painted, Scalars};
 use gelray::products::{Gel, LightStrength, Opacity, Pyramid};
-use gelray::samples::Counts;
 use gelray::schedule::Ran;
+use gelray::view::samples::Counts;
+use gelray::volume::grid::{Painted, Scalars};
 use hecs::World;
 use serde::Serialize;
 
@@ -54,8 +54,9 @@ pub struct Bytes {
 impl Bytes {
     /// The bytes of what a world carries.
     pub fn of(world: &World) -> Self {
-        let gel =
-            |gel: &Gel| gel.lit.bytes() + gel.ambient.as_ref().map_or(0, gelray::gel::Gel::bytes);
+        let gel = |gel: &Gel| {
+            gel.lit.bytes() + gel.ambient.as_ref().map_or(0, gelray::volume::gel::Gel::bytes)
+        };
         Self {
             scalars: voxels(world),
             gel: world.query::<&Gel>().iter().map(gel).sum(),

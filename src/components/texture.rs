@@ -4,7 +4,7 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// An image that polygons and lights may name: exactly one of `file` or `formula`.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
@@ -50,7 +50,7 @@ pub struct TexturedBy {
     /// As stated.
     pub textured: Textured,
     /// The texture, ready for lookups.
-    pub texture: crate::texture::Texture,
+    pub texture: crate::polygon::texture::Texture,
     /// World points of the texture's top left, top right and bottom left corners; never on one line.
     pub corners: [DVec3; 3],
 }

@@ -22,8 +22,8 @@ use std::path::Path;
 pub use stated::Stated;
 
 use crate::error::Error;
-use crate::grid::{Grid, Painted, Scalars};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
+use crate::volume::grid::{Grid, Painted, Scalars};
 use stream::Stream;
 
 /// What a volume file held: where its voxels are, and what they are.

@@ -38,7 +38,7 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Scalars;
+    use crate::volume::grid::Scalars;
 
     fn stated() -> Stated {
         Stated {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use glam::{DMat3, DVec3};
 
 use super::{Loaded, Stated, Voxels, read_volume};
-use crate::grid::Scalars;
 use crate::measure::sigma::sigma;
+use crate::volume::grid::Scalars;
 
 /// The file, read; `None`, with a line that says so, where there is no data folder or no such file in it.
 fn real(name: &str) -> Option<Loaded> {

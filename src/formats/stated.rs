@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::grid::Grid;
+use crate::volume::grid::Grid;
 
 /// What a scene says of a volume file; all of it may be left out.
 #[derive(Debug, Clone, Default, PartialEq)]

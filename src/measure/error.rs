@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::ssim::ssim;
 use crate::components::color::to_srgb;
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// What luminances are cut off at before structures are compared: beyond, squares would lose the digits that matter.
 const BRIGHTEST: f64 = 1000.0;

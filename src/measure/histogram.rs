@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::grid::{Scalar, Scalars};
+use crate::volume::grid::{Scalar, Scalars};
 use crate::with_scalars;
 
 pub use super::isovalues::suggested_isovalues;
@@ -108,7 +108,7 @@ impl Histogram {
 #[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
     use super::*;
-    use crate::grid::Shared;
+    use crate::volume::grid::Shared;
 
     #[test]
     fn every_voxel_is_counted_once() {

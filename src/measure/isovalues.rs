@@ -12,7 +12,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::histogram::Bins;
-use crate::grid::{Scalar, Scalars};
+use crate::volume::grid::{Scalar, Scalars};
 use crate::with_scalars;
 
 /// Bins of values, and places where a contour is tried.
@@ -183,8 +183,8 @@ fn spread(counts: &[i64], bins: Range<usize>) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::formats::Voxels;
-    use crate::grid::Shared;
     use crate::phantom::{ball, phantom};
+    use crate::volume::grid::Shared;
 
     fn of(values: Vec<f32>) -> Vec<f32> {
         suggested_isovalues(&Scalars::F32(Shared::new(values)))

@@ -1,6 +1,6 @@
 //! Mean and root-mean-square deviation of a volume: the unit in which densities of molecules are contoured.
 
-use crate::grid::Scalars;
+use crate::volume::grid::Scalars;
 use crate::with_scalars;
 
 /// Mean of the values and the square root of their mean squared deviation from it, in the values' unit.
@@ -47,7 +47,7 @@ pub fn sigma(scalars: &Scalars) -> Option<Sigma> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Shared;
+    use crate::volume::grid::Shared;
 
     #[test]
     #[allow(clippy::float_cmp, reason = "these are exact")]

@@ -48,7 +48,7 @@ fn choose<T: Copy>(table: &[(&str, T)], name: &str, kind: &str) -> Result<T, Str
 mod tests {
     use super::*;
     use crate::formats::Voxels;
-    use crate::grid::Scalars;
+    use crate::volume::grid::Scalars;
 
     /// FNV-1a over the little-endian bits of the values.
     fn fingerprint(name: &str) -> u64 {

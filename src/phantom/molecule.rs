@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::simple::centred;
 use crate::formats::Loaded;
-use crate::grid::{Scalars, Shared};
+use crate::volume::grid::{Scalars, Shared};
 
 const SIDE: usize = 96;
 const SPACING: f32 = 0.42;

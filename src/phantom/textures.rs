@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::choose;
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// Texels on each side.
 const SIDE: usize = 256;

@@ -3,8 +3,8 @@
 use super::load::Loading;
 use crate::components::{CastsShadow, Color, Light, Observer, Projects, Shaft, Toward};
 use crate::error::Error;
-use crate::face::Extent;
-use crate::grid::Painted;
+use crate::polygon::face::Extent;
+use crate::volume::grid::Painted;
 
 /// Checks the falloff of shadows over the scene, and adds a head light where something wants light and none is stated.
 pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use super::load::Loading;
 use super::shape;
 use crate::components::{Mesh, Polygon, Surface, Voxelize};
 use crate::error::Error;
-use crate::face::{Face, Faces};
+use crate::polygon::face::{Face, Faces};
 
 /// Gives every polygon and mesh its faces and its surface.
 pub(super) fn bring_in(loading: &mut Loading) -> Result<(), Error> {

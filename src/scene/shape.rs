@@ -105,7 +105,7 @@ pub(super) fn prism(shape: &Prism) -> Vec<Vec<DVec3>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::face::Face;
+    use crate::polygon::face::Face;
 
     fn egg(lumpiness: f64) -> Ellipsoid {
         Ellipsoid { center: [1.0, 2.0, 3.0], radii: [3.0, 2.0, 1.0], subdivisions: 3, lumpiness }

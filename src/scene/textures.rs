@@ -5,12 +5,12 @@ use glam::DVec3;
 use super::load::Loading;
 use crate::components::{Polygon, ProjectedBy, Projects, Texture, Textured, TexturedBy, Voxelize};
 use crate::error::Error;
-use crate::face::Extent;
 use crate::formats::read_picture;
-use crate::grid::Grid;
 use crate::phantom;
-use crate::picture::Picture;
-use crate::texture;
+use crate::polygon::face::Extent;
+use crate::polygon::texture;
+use crate::view::picture::Picture;
+use crate::volume::grid::Grid;
 
 /// Reads every texture, then resolves `textured` and `projects`.
 pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Error> {

@@ -4,9 +4,9 @@ use super::lights::falloff;
 use super::load::Loading;
 use crate::components::{DepthCue, Sampling, View};
 use crate::error::Error;
-use crate::face::{Extent, Faces};
-use crate::grid::Grid;
+use crate::polygon::face::{Extent, Faces};
 use crate::scene::SceneError;
+use crate::volume::grid::Grid;
 
 /// The bounding box of the volume's domain and of all polygons; the error is that there is neither.
 pub(super) fn extent(loading: &Loading) -> Result<Extent, Error> {

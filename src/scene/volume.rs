@@ -6,10 +6,10 @@ use super::load::Loading;
 use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume};
-use crate::grid::{Grid, Scalars};
 use crate::measure::histogram::suggested_isovalues;
 use crate::measure::sigma::sigma;
 use crate::phantom::phantom;
+use crate::volume::grid::{Grid, Scalars};
 
 /// Reads the volume that the scene states, if it states one.
 pub(super) fn bring_in(loading: &mut Loading) -> Result<(), Error> {

@@ -14,8 +14,8 @@ use super::beams::{Beams, SIDE};
 use super::level::Level;
 use crate::components::Sampling;
 use crate::error::Error;
-use crate::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
 use crate::schedule::Watch;
+use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
 
 /// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
 #[derive(Debug, Clone, Copy, Default)]

@@ -2,7 +2,7 @@
 
 use super::adaptive::Ray;
 use super::beams::{Beams, SIDE};
-use crate::samples::{Colors, Counts, Layout, NONE, POSITIONS};
+use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
 /// Rows of blocks in a band.
 const BLOCKS: usize = SIDE / POSITIONS;

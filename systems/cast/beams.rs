@@ -7,11 +7,11 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use crate::gel::{CELLS, EMPTY, Texel, Texels};
-use crate::grid::Grid;
-use crate::pyramid::Pyramid;
-use crate::ray::Camera;
-use crate::samples::{Layout, POSITIONS};
+use crate::view::samples::{Layout, POSITIONS};
+use crate::view::walk::Camera;
+use crate::volume::gel::{CELLS, EMPTY, Texel, Texels};
+use crate::volume::grid::Grid;
+use crate::volume::pyramid::Pyramid;
 
 /// Pixels along a beam's side.
 const PIXELS: usize = 4;

@@ -7,11 +7,11 @@ use crate::components::{
     DepthCue, Light, OpacityUnit, Order, ProjectedBy, Sampling, Shaft, Surface, TexturedBy, View,
     Voxelize,
 };
-use crate::face::{Extent, Faces};
-use crate::grid::Grid;
+use crate::light::shading::Lamps;
+use crate::polygon::face::{Extent, Faces};
 use crate::products::{Gel, LightStrength, Pyramid};
-use crate::ray::Camera;
-use crate::shading::Lamps;
+use crate::view::walk::Camera;
+use crate::volume::grid::Grid;
 
 /// What the rays of a view meet.
 #[derive(PartialEq)]

@@ -1,6 +1,6 @@
 //! Which regions of one level of the refinement are split (paper §6).
 
-use crate::samples::POSITIONS;
+use crate::view::samples::POSITIONS;
 
 /// The regions of `side` positions, x fastest.
 pub struct Level {

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::volume::{Cursor, Volume};
-use crate::composite::{Gathered, recolor, thicken};
-use crate::gel::Texel;
-use crate::samples::Counts;
+use crate::view::composite::{Gathered, recolor, thicken};
+use crate::view::samples::Counts;
+use crate::volume::gel::Texel;
 
 /// A polygon that a ray meets, shaded.
 #[derive(Debug, Clone, Copy)]

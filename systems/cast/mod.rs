@@ -23,12 +23,12 @@ use hecs::{Entity, World};
 
 use crate::components::{DepthCue, Sampling, View};
 use crate::error::Error;
-use crate::face::Extent;
-use crate::gel::{Gel as GelBricks, Texel, Texels};
+use crate::polygon::face::Extent;
 use crate::products::{Pyramid, Samples};
-use crate::ray::{Camera, Walk};
-use crate::samples::{Counts, Layout, SampleArray};
 use crate::schedule::{Kind, Outbox, Plan, System, Watch};
+use crate::view::samples::{Counts, Layout, SampleArray};
+use crate::view::walk::{Camera, Walk};
+use crate::volume::gel::{Gel as GelBricks, Texel, Texels};
 use adaptive::{Aim, Caster, Ray, Refinement};
 use beams::{Beams, Occupied};
 use inputs::{Inputs, Medium};

@@ -13,11 +13,11 @@ use super::march::{Hit, Shaded};
 use super::texture::Laid;
 use super::volume::Cue;
 use crate::components::Surface;
-use crate::face::Face;
+use crate::light::shading::{Lamps, Reflectance};
+use crate::polygon::face::Face;
 use crate::products::LightStrength;
-use crate::ray::Camera;
-use crate::samples::{Layout, POSITIONS};
-use crate::shading::{Lamps, Reflectance};
+use crate::view::samples::{Layout, POSITIONS};
+use crate::view::walk::Camera;
 
 /// How far outside the bounding box of a polygon a ray is sure to miss it, pixels.
 const OUTSIDE: f64 = 1e-6;

@@ -7,11 +7,11 @@
 use glam::DVec3;
 use hecs::Entity;
 
-use crate::coverage::ball::REACH;
-use crate::grid::Grid;
+use crate::light::shading::{Lamp, Lamps};
+use crate::light::strength::Shear;
+use crate::polygon::coverage::ball::REACH;
 use crate::products::LightStrength;
-use crate::shading::{Lamp, Lamps};
-use crate::strength::Shear;
+use crate::volume::grid::Grid;
 
 /// The least cosine between a face's normal and a light that the way is stretched by: what light falls flatter than that
 /// is faint, and its way would leave out what else stands in it.

@@ -8,9 +8,9 @@
 use glam::{DVec3, Vec3, Vec4};
 
 use crate::components::{Light, ProjectedBy, Shaft};
-use crate::ray::Camera;
-use crate::shading::toward;
-use crate::strength::{LightStrength, Slide};
+use crate::light::shading::toward;
+use crate::light::strength::{LightStrength, Slide};
+use crate::view::walk::Camera;
 
 /// What a shaft is made of: the light and what shapes its beam.
 #[derive(Clone, PartialEq)]

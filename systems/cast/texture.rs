@@ -3,10 +3,10 @@
 use glam::{DVec3, Vec4};
 
 use crate::components::{Textured, TexturedBy};
-use crate::face::Face;
-use crate::ray::Camera;
-use crate::samples::POSITIONS;
-use crate::texture::{Footprint, Mapping, Texture};
+use crate::polygon::face::Face;
+use crate::polygon::texture::{Footprint, Mapping, Texture};
+use crate::view::samples::POSITIONS;
+use crate::view::walk::Camera;
 
 /// A texture laid on a face and seen in a view.
 pub struct Laid {

@@ -3,11 +3,11 @@
 use glam::{DVec3, I64Vec3, Vec3, Vec4};
 
 use super::shaft::Dust;
-use crate::composite::{Gathered, recolor, thicken};
-use crate::gel::{CELLS, EMPTY, Texel, TexelSlices};
-use crate::pyramid::{PyramidSlices, empty_level_within};
-use crate::ray::{FRACTION_BITS, Samples, Walk};
-use crate::samples::Counts;
+use crate::view::composite::{Gathered, recolor, thicken};
+use crate::view::samples::Counts;
+use crate::view::walk::{FRACTION_BITS, Samples, Walk};
+use crate::volume::gel::{CELLS, EMPTY, Texel, TexelSlices};
+use crate::volume::pyramid::{PyramidSlices, empty_level_within};
 
 /// How reflected light fades with depth: divided by `k1 + k2 (t − near)`, t the depth along the ray.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! What attenuates a light: opacities of the volume and of polygons, read a row of a slice at a time.
 
 use super::inputs::Source;
-use crate::bricks::{Bricks, EDGE, VOXELS};
-use crate::grid::Painted;
-use crate::strength::Shear;
+use crate::light::strength::Shear;
+use crate::volume::bricks::{Bricks, EDGE, VOXELS};
+use crate::volume::grid::Painted;
 
 /// Everything with an opacity, per voxel.
 pub(super) struct Casters {

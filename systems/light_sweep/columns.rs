@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 use super::casters::Casters;
 use super::opacities::Opacities;
-use crate::composite::thicken;
-use crate::strength::{Place, Shear, Slide};
+use crate::light::strength::{Place, Shear, Slide};
+use crate::view::composite::thicken;
 
 /// Rows of columns that one task walks.
 const ROWS: usize = 16;
@@ -190,8 +190,8 @@ mod tests {
 
     use super::super::inputs::Source;
     use super::*;
-    use crate::bricks::Bricks;
-    use crate::grid::Grid;
+    use crate::volume::bricks::Bricks;
+    use crate::volume::grid::Grid;
 
     #[test]
     fn in_homogeneous_gel_strengths_follow_the_law_to_a_millionth() {

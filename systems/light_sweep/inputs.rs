@@ -3,12 +3,12 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::bricks::Bricks;
 use crate::components::{CastsShadow, Order, ProjectedBy, Shaft, Voxelize};
 use crate::error::Error;
-use crate::face::Faces;
-use crate::grid::{Grid, Painted, Scalars};
+use crate::polygon::face::Faces;
 use crate::products::{Composite, Coverage, Opacity};
+use crate::volume::bricks::Bricks;
+use crate::volume::grid::{Grid, Painted, Scalars};
 
 /// What one light's strengths are made from. Nothing of a view, but for a light that stands at the observer.
 #[derive(PartialEq)]

@@ -1,8 +1,8 @@
 //! Opacities where columns meet a slice: the only thing that a sweep interpolates, bilinearly within the slice.
 
 use super::casters::Casters;
-use crate::bricks::EDGE;
-use crate::strength::Shear;
+use crate::light::strength::Shear;
+use crate::volume::bricks::EDGE;
 
 /// A row of opacities for columns to meet.
 pub(super) struct Opacities {

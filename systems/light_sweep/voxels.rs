@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::columns::Columns;
-use crate::bricks::{Bricks, EDGE};
-use crate::strength::{Falloff, Place, Shear, quantize};
+use crate::light::strength::{Falloff, Place, Shear, quantize};
+use crate::volume::bricks::{Bricks, EDGE};
 
 /// The strengths at interesting voxels, gathered slice by slice.
 pub(super) struct Voxels<'a> {

@@ -1,8 +1,8 @@
 //! What C_G and C_A are for: rays below a pixel are cast where a polygon's edge is seen, and nowhere else (paper §2).
 
 use gelray::components::Sampling;
-use gelray::grid::Grid;
-use gelray::samples::{Layout, POSITIONS};
+use gelray::view::samples::{Layout, POSITIONS};
+use gelray::volume::grid::Grid;
 use glam::{DQuat, DVec2, DVec3};
 
 use super::support::{Mixture, Rendered, centred, flat, homogeneous, paint, square};

@@ -2,8 +2,8 @@
 
 use gelray::components::Sampling;
 use gelray::formats::Voxels;
-use gelray::grid::{Grid, Scalars};
 use gelray::phantom::ball;
+use gelray::volume::grid::{Grid, Scalars};
 use glam::{DVec2, DVec3};
 
 use super::support::{Mixture, Rendered, every_pixel, paint};

@@ -4,9 +4,9 @@ use gelray::components::{
     Classify, Color, Contour, DepthCue, Light, Material, OpacityUnit, Order, Sampling, TexelKind,
     Toward, View,
 };
-use gelray::face::Extent;
-use gelray::grid::{Grid, Scalars, Shared};
-use gelray::picture::Picture;
+use gelray::polygon::face::Extent;
+use gelray::view::picture::Picture;
+use gelray::volume::grid::{Grid, Scalars, Shared};
 use glam::{DVec3, Vec3};
 use hecs::World;
 

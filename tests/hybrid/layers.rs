@@ -1,7 +1,7 @@
 //! Faint layers: what 4096 of them add up to in texels of 32, 16 and 8 bits, and what the last bits of an opacity do.
 
 use gelray::components::{Sampling, TexelKind};
-use gelray::grid::Grid;
+use gelray::volume::grid::Grid;
 
 use super::support::{Mixture, every_pixel, homogeneous};
 

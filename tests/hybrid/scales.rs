@@ -1,8 +1,8 @@
 //! Scenes as small as a millionth and as large as a million, far from the origin, in windows of every size (algorithm §10).
 
 use gelray::components::{Sampling, View};
-use gelray::grid::Grid;
-use gelray::picture::Picture;
+use gelray::view::picture::Picture;
+use gelray::volume::grid::Grid;
 use glam::DVec3;
 
 use super::support::{

@@ -1,7 +1,7 @@
 //! Adaptive termination: a ray that stops at ε is off by no more than ε in any channel (paper §6; algorithm §6).
 
 use gelray::components::{Sampling, View};
-use gelray::grid::Grid;
+use gelray::volume::grid::Grid;
 use glam::DVec3;
 use proptest::prelude::*;
 

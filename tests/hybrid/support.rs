@@ -7,15 +7,15 @@ use gelray::components::{
     Color, DepthCue, Name, OpacityUnit, Order, PixelFilter, Sampling, Skip, Surface, TexelKind,
     View,
 };
-use gelray::face::{Extent, Face, Faces};
-use gelray::grid::{Grid, Painted, Shared};
-use gelray::picture::Picture;
+use gelray::polygon::face::{Extent, Face, Faces};
 use gelray::products::{Frame, Samples};
-use gelray::ray::Camera;
-use gelray::samples::SampleArray;
 use gelray::scene::{Source, load};
 use gelray::schedule::{Ran, Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::view::picture::Picture;
+use gelray::view::samples::SampleArray;
+use gelray::view::walk::Camera;
+use gelray::volume::grid::{Grid, Painted, Shared};
 use glam::{DVec2, DVec3, Vec3};
 use hecs::{Entity, World};
 

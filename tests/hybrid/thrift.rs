@@ -3,11 +3,11 @@
 use gelray::components::{
     Classify, Color, Contour, Light, Material, OpacityUnit, Order, Sampling, Surface, Toward, View,
 };
-use gelray::face::{Extent, Face, Faces};
-use gelray::grid::{Scalars, Shared};
+use gelray::polygon::face::{Extent, Face, Faces};
 use gelray::products::{Gradient, LitColors, Opacity, Samples};
 use gelray::schedule::Ran;
 use gelray::systems::JOBS;
+use gelray::volume::grid::{Scalars, Shared};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 

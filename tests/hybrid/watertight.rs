@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use gelray::components::{Order, View};
-use gelray::face::{Extent, Face, Faces};
+use gelray::polygon::face::{Extent, Face, Faces};
 use glam::{DQuat, DVec2, DVec3};
 use hecs::World;
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! One scene by both methods: the same away from edges, and sharper edges from the hybrid ray tracer (the paper's figures 6, 7).
 
-use gelray::picture::Picture;
+use gelray::view::picture::Picture;
 use glam::DVec2;
 
 use crate::{camera, difference, frame, gel, made, near, nothing, pixels, polygon, rendered, view};

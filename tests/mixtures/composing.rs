@@ -1,7 +1,7 @@
 //! Everything in one scene: shadows, a cut, polygons of both methods, textures, two contours and a shaft of light.
 
 use gelray::components::View;
-use gelray::picture::Picture;
+use gelray::view::picture::Picture;
 
 use crate::{entity, frame, rendered, run, stated, view};
 

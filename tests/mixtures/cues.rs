@@ -7,7 +7,7 @@ use crate::{
 };
 
 /// Gel, polygons of both methods, and shadows; `ambient` and `strength` are those of everything.
-fn scene(strength: f64, cue: &str) -> gelray::picture::Picture {
+fn scene(strength: f64, cue: &str) -> gelray::view::picture::Picture {
     let gel =
         gel("ball", [0.0, 0.3], "material = { color = \"#e0c0a0\", ambient = 0.3, diffuse = 0.7 }");
     let hybrid = level("hybrid", 5.2, 29.0, "surface = { color = \"#a0c0ff\", opacity = 0.5 }");
@@ -23,7 +23,7 @@ fn scene(strength: f64, cue: &str) -> gelray::picture::Picture {
     rendered(&[&gel, &hybrid, &scanned, &key, &view])
 }
 
-fn most(a: &gelray::picture::Picture, b: impl Fn(usize) -> [f32; 4]) -> f32 {
+fn most(a: &gelray::view::picture::Picture, b: impl Fn(usize) -> [f32; 4]) -> f32 {
     a.pixels.iter().enumerate().map(|(at, pixel)| difference(*pixel, b(at))).fold(0.0, f32::max)
 }
 
@@ -71,7 +71,7 @@ fn reflected_light_falls_with_depth_by_the_same_law_on_polygons_of_both_methods(
                 view(0.0, 0.0, 64, 64.0, EVERY_PIXEL)
             );
             let world = made(&[&nothing(), &pane, light, &view]);
-            let extent = *world.query::<&gelray::face::Extent>().iter().next().unwrap();
+            let extent = *world.query::<&gelray::polygon::face::Extent>().iter().next().unwrap();
             let camera = camera(&world);
             let near = camera.project(extent.center()).1 - extent.radius();
             let depth = camera.project(DVec3::new(0.0, y, 0.0)).1 - near;

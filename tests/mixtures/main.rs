@@ -15,14 +15,14 @@ mod thrift;
 use std::path::PathBuf;
 
 use gelray::components::{Name, View};
-use gelray::face::Extent;
-use gelray::picture::Picture;
+use gelray::polygon::face::Extent;
 use gelray::products::{Frame, LightStrength};
-use gelray::ray::Camera;
-use gelray::samples::{SampleArray, Samples};
 use gelray::scene::{Source, load};
 use gelray::schedule::{Ran, Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::view::picture::Picture;
+use gelray::view::samples::{SampleArray, Samples};
+use gelray::view::walk::Camera;
 use glam::DVec3;
 use hecs::{Entity, World};
 

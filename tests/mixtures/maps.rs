@@ -1,6 +1,6 @@
 //! Maps of molecules on a crystal's oblique cell, contoured in standard deviations, from file to picture.
 
-use gelray::grid::Grid;
+use gelray::volume::grid::Grid;
 use glam::{DMat2, DVec2, DVec3};
 
 use crate::{camera, frame, run, stated, view};
@@ -58,7 +58,7 @@ struct Silhouette {
 }
 
 impl Silhouette {
-    fn new(grid: &Grid, camera: &gelray::ray::Camera, radius: f64) -> Self {
+    fn new(grid: &Grid, camera: &gelray::view::walk::Camera, radius: f64) -> Self {
         let window = |index: DVec3| camera.project(grid.index_to_world.transform_point3(index)).0;
         let center = DVec3::from(CENTER);
         let middle = window(center);

@@ -1,6 +1,6 @@
 //! Each effect of a scene of everything taken away alone: nothing changes but what it did.
 
-use gelray::picture::Picture;
+use gelray::view::picture::Picture;
 use glam::DVec3;
 
 use crate::composing::{CUT, Mixture, SCANNED, TEXTURED};

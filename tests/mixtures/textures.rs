@@ -1,9 +1,9 @@
 //! Textures on polygons of the hybrid ray tracer, in pictures (paper §5, the paper's figure 10).
 
 use gelray::components::{Color, TextureFilter, TexturedBy, Wrap};
-use gelray::picture::Picture;
-use gelray::samples::{POSITIONS, SampleArray};
-use gelray::texture::Texture;
+use gelray::polygon::texture::Texture;
+use gelray::view::picture::Picture;
+use gelray::view::samples::{POSITIONS, SampleArray};
 use hecs::World;
 
 use crate::{

@@ -1,9 +1,9 @@
 //! The numerical extremes of algorithm §10 through the whole of preparation.
 
 use gelray::components::Toward;
-use gelray::gel::Gel as GelBricks;
-use gelray::grid::{Grid, Scalars, Shared};
 use gelray::products::{Gel, LitColors, Opacity};
+use gelray::volume::gel::Gel as GelBricks;
+use gelray::volume::grid::{Grid, Scalars, Shared};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 

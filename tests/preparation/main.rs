@@ -8,11 +8,11 @@ use gelray::components::{
     Classify, Color, Contour, Light, Material, Name, OpacityUnit, Order, Sampling, TexelKind,
     Toward, View,
 };
-use gelray::face::Extent;
-use gelray::gel::{CELLS, Gel as GelBricks};
-use gelray::grid::{Grid, Scalars, Shared};
+use gelray::polygon::face::Extent;
 use gelray::schedule::{Ran, Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::volume::gel::{CELLS, Gel as GelBricks};
+use gelray::volume::grid::{Grid, Scalars, Shared};
 use gelray::with_texels;
 use glam::{DVec3, Vec3, Vec4};
 use hecs::{Entity, World};

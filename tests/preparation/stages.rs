@@ -1,10 +1,10 @@
 //! Closed forms through the whole of preparation: balls, shadows, cuts and paint.
 
-use gelray::bricks::Bricks;
 use gelray::components::{CastsShadow, Clip, DepthCue, Material, Order, TexelKind, Toward};
-use gelray::grid::{Grid, Painted, Shared};
+use gelray::light::strength;
 use gelray::products::{Composite, Gel, Layer, LightStrength, LitColors, Opacity};
-use gelray::strength;
+use gelray::volume::bricks::Bricks;
+use gelray::volume::grid::{Grid, Painted, Shared};
 use glam::{Vec3, Vec4};
 use hecs::World;
 
@@ -168,9 +168,9 @@ fn gel_is_kept_in_the_numbers_that_the_view_states() {
         prepare(&mut world);
         let gel = world.get::<&Gel>(volume).unwrap();
         let made = match gel.lit {
-            gelray::gel::Gel::F32(_) => TexelKind::F32,
-            gelray::gel::Gel::U16(_) => TexelKind::U16,
-            gelray::gel::Gel::U8(_) => TexelKind::U8,
+            gelray::volume::gel::Gel::F32(_) => TexelKind::F32,
+            gelray::volume::gel::Gel::U16(_) => TexelKind::U16,
+            gelray::volume::gel::Gel::U8(_) => TexelKind::U8,
         };
         assert_eq!(made, kind);
     }

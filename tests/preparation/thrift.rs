@@ -4,9 +4,9 @@ use gelray::components::{
     CastsShadow, Classify, DepthCue, Material, Observer, Order, Sampling, Skip, TexelKind, Toward,
     View,
 };
-use gelray::grid::{Grid, Painted, Shared};
 use gelray::products::{Gel, Gradient, LitColors, Opacity, Pyramid};
 use gelray::systems::JOBS;
+use gelray::volume::grid::{Grid, Painted, Shared};
 use hecs::{Entity, World};
 
 use super::{Ball, STAGES, ball, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume};
@@ -112,10 +112,10 @@ fn taken(world: &World, stage: &str, entity: Entity) -> Option<u64> {
         "classify" => world.get::<&Opacity>(entity).ok().map(|made| made.voxels.bytes()),
         "shade" => world.get::<&LitColors>(entity).ok().map(|made| {
             let apart = made.shadowed.iter().chain(&made.ambient);
-            made.base.bytes() + apart.map(gelray::bricks::Bricks::bytes).sum::<u64>()
+            made.base.bytes() + apart.map(gelray::volume::bricks::Bricks::bytes).sum::<u64>()
         }),
         "relight" => world.get::<&Gel>(entity).ok().map(|made| {
-            made.lit.bytes() + made.ambient.as_ref().map_or(0, gelray::gel::Gel::bytes)
+            made.lit.bytes() + made.ambient.as_ref().map_or(0, gelray::volume::gel::Gel::bytes)
         }),
         _ => world.get::<&Pyramid>(entity).ok().map(|made| made.bytes()),
     }

@@ -2,12 +2,12 @@
 
 use gelray::components::{Color, Matte};
 use gelray::components::{Light, Observer, Order, Surface, Toward, View, Voxelize};
-use gelray::face::Face;
-use gelray::grid::Grid;
+use gelray::polygon::face::Face;
 use gelray::products::{Composite, Coverage, Layer};
 use gelray::schedule::System;
 use gelray::systems::matte::Matte as MatteSystem;
 use gelray::systems::scan_convert::ScanConvert;
+use gelray::volume::grid::Grid;
 use glam::DVec3;
 
 use crate::scene::{Tracer, add, composite, cover, cube, flat, rectangle, run, total, world};

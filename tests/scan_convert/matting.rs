@@ -1,9 +1,9 @@
 //! Facts about composites: volume and polygons by every operator, in the order of the scene.
 
-use gelray::bricks::Bricks;
 use gelray::components::{Clip, Color, Matte, Order, Surface, Voxelize};
-use gelray::grid::{Grid, Painted, Shared};
 use gelray::products::{Coverage, Layer, LitColors, Opacity};
+use gelray::volume::bricks::Bricks;
+use gelray::volume::grid::{Grid, Painted, Shared};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 

@@ -1,6 +1,6 @@
 //! Facts about opacity: what a ray gathers of a plane, against angle, phase, sample distance and direction in the grid.
 
-use gelray::grid::Grid;
+use gelray::volume::grid::Grid;
 use glam::DVec3;
 
 use crate::scene::{Tracer, cover, cube, rectangle};

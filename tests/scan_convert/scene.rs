@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use gelray::Error;
-use gelray::bricks::Bricks;
 use gelray::components::{Matte, OpacityUnit, Order, Surface, Voxelize};
-use gelray::composite::{Gathered, thicken};
-use gelray::face::{Face, Faces};
-use gelray::grid::Grid;
+use gelray::polygon::face::{Face, Faces};
 use gelray::products::{Composite, Coverage};
 use gelray::schedule::{Job, Schedule, Watch};
 use gelray::systems::{matte, scan_convert};
+use gelray::view::composite::{Gathered, thicken};
+use gelray::volume::bricks::Bricks;
+use gelray::volume::grid::Grid;
 use glam::DVec3;
 use hecs::{Entity, World};
 

@@ -1,7 +1,7 @@
 //! Lights from everywhere, through grids that are flipped, anisotropic, sheared and turned.
 
 use gelray::components::CastsShadow;
-use gelray::grid::Grid;
+use gelray::volume::grid::Grid;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes, noise, point, voxels};

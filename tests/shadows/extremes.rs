@@ -1,8 +1,8 @@
 //! Numbers at the ends of their ranges (algorithm §10), and equal bytes from any number of threads.
 
 use gelray::components::CastsShadow;
-use gelray::grid::{Grid, Painted, Shared};
 use gelray::products::{LightStrength, Opacity};
+use gelray::volume::grid::{Grid, Painted, Shared};
 use glam::DVec3;
 
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes, noise, point, voxels};

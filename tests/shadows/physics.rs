@@ -1,7 +1,7 @@
 //! What light does in gel: the exponential law, wedges, falloff, and no trace of the sample distance.
 
 use gelray::components::CastsShadow;
-use gelray::grid::Grid;
+use gelray::volume::grid::Grid;
 use glam::DVec3;
 
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes, point, voxels};

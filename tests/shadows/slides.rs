@@ -1,7 +1,7 @@
 //! Textures projected through the volume: where they land, how sharp, and never aliased.
 
 use gelray::components::{ProjectedBy, Projects, Wrap};
-use gelray::picture::Picture;
+use gelray::view::picture::Picture;
 use glam::DVec3;
 
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes};

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use gelray::bricks::Bricks;
 use gelray::components::{CastsShadow, Observer, Order, Shaft, Toward, View, Voxelize};
 use gelray::components::{Light, Matte};
-use gelray::face::{Face, Faces};
-use gelray::grid::{Scalars, Shared};
+use gelray::polygon::face::{Face, Faces};
 use gelray::products::{Coverage, Layer, LightStrength, LitColors};
 use gelray::schedule::{Job, Schedule, System, Watch};
 use gelray::systems::light_sweep::LightSweep;
+use gelray::volume::bricks::Bricks;
+use gelray::volume::grid::{Scalars, Shared};
 use glam::DVec3;
 use hecs::World;
 

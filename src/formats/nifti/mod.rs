@@ -10,7 +10,7 @@ use std::path::Path;
 use super::number::{self, Binary, NumberType, Stored};
 use super::stream::Stream;
 use super::{Loaded, Stated, Voxels};
-use crate::grid::{Scalars, Shared};
+use crate::volume::grid::{Scalars, Shared};
 use crate::with_scalars;
 use header::{Header, LENGTH};
 

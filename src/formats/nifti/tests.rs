@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::grid::Painted;
+use crate::volume::grid::Painted;
 
 /// The bytes of a file, written in either order.
 #[derive(Clone)]

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::*;
 use crate::formats::made::gzip;
-use crate::grid::{Painted, Scalars};
+use crate::volume::grid::{Painted, Scalars};
 
 fn parse(header: &str, voxels: &[u8]) -> Result<Loaded, String> {
     let bytes = [header.as_bytes(), b"\n", voxels].concat();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::components::color::{to_linear, to_srgb};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// The 8-bit code of a linear, associated pixel: sRGB colours and straight alpha, each rounded to nearest.
 ///

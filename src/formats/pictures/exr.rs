@@ -13,7 +13,7 @@ use exr::prelude::{
 
 use super::{Notes, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// Read and written.
 pub const FORMAT: PictureFormat =

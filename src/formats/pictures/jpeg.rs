@@ -7,7 +7,7 @@ use image::{DynamicImage, ImageDecoder, Limits};
 
 use super::encoded::{Alpha, from_codes};
 use super::{MOST_PIXELS, PictureFormat, checked_size, whole, wrong};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// Read, not written.
 pub const FORMAT: PictureFormat =

@@ -20,7 +20,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::formats::whole::{Failure, Sink, check_writable, write_whole};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 pub use ray_map::write_ray_map;
 

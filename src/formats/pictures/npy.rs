@@ -2,7 +2,7 @@
 
 use super::{Notes, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// Read and written.
 pub const FORMAT: PictureFormat =

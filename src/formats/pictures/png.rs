@@ -7,7 +7,7 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Limits, SrgbRenderingIntent, Tr
 use super::encoded::{Alpha, from_codes, to_bytes};
 use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// Read and written.
 pub const FORMAT: PictureFormat =

@@ -12,7 +12,7 @@ use tiff::tags::{ExtraSamples, Tag, Type};
 use super::encoded::{Alpha, from_codes, from_floats};
 use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
-use crate::picture::Picture;
+use crate::view::picture::Picture;
 
 /// Read and written.
 pub const FORMAT: PictureFormat = PictureFormat {

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::simple::centred;
 use super::solid::{FAR, Slice, Solid, coverage};
 use crate::formats::Loaded;
-use crate::grid::{Scalars, Shared};
+use crate::volume::grid::{Scalars, Shared};
 
 const SIZE: [usize; 3] = [256, 256, 113];
 const SPACING: [f64; 3] = [1.0, 1.0, 2.0];

@@ -9,8 +9,8 @@ use crate::components::{
     CastsShadow, Classify, Light, Material, Name, OpacityUnit, Order, ProjectedBy, Sampling, Skip,
     Surface, TexturedBy, View, Voxelize,
 };
-use crate::face::{Extent, Faces};
-use crate::grid::{Grid, Painted, Scalars};
+use crate::polygon::face::{Extent, Faces};
+use crate::volume::grid::{Grid, Painted, Scalars};
 
 const BALL: &str = "[[entity]]\nname = \"ball\"\nvolume = { file = \"phantom:ball\" }\nclassify = { iso = [{ value = 0.5 }] }\n";
 const PLANE: &str = "[[entity]]\nname = \"plane\"\npolygon = { vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]] }\n";

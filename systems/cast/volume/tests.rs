@@ -6,11 +6,11 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::components::View;
-use crate::face::Extent;
-use crate::gel::Texels;
-use crate::grid::Grid;
-use crate::pyramid::Pyramid;
-use crate::ray::Camera;
+use crate::polygon::face::Extent;
+use crate::view::walk::Camera;
+use crate::volume::gel::Texels;
+use crate::volume::grid::Grid;
+use crate::volume::pyramid::Pyramid;
 
 /// Gel in few voxels of a grid, seen from somewhere.
 #[derive(Debug, Clone)]

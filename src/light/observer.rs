@@ -1,0 +1,67 @@
+//! The observer whom voxels are made ready for: the first view of a scene.
+
+use glam::DVec3;
+use hecs::{Entity, World};
+
+use crate::components::{DepthCue, Order, Sampling, View};
+use crate::light::shading::{Lamps, Reflectance, depends_on_view};
+use crate::polygon::face::Extent;
+use crate::view::walk::Camera;
+
+/// Where an observer is taken to stand who makes no difference: in front, as at azimuth 0 and elevation 0.
+pub const ANYWHERE: DVec3 = DVec3::NEG_Y;
+
+/// The first view in the order of the scene; `None` without one.
+#[must_use]
+pub fn first_view(world: &World) -> Option<Entity> {
+    let mut views = world.query::<(Entity, &View, Option<&Order>)>();
+    views.iter().min_by_key(|(_, _, order)| order.copied()).map(|(entity, ..)| entity)
+}
+
+/// The unit vector from the scene towards the observer; [`ANYWHERE`] without a view.
+#[must_use]
+pub fn direction(world: &World) -> DVec3 {
+    let view = first_view(world).and_then(|entity| world.get::<&View>(entity).ok());
+    // Rays are parallel: where they point depends on no extent.
+    let somewhere = Extent { low: DVec3::ZERO, high: DVec3::ONE };
+    view.map_or(ANYWHERE, |view| -Camera::new(&view, &somewhere).forward)
+}
+
+/// The lights as they fall on something of this reflectance. Where the observer makes no difference he is no part of it:
+/// what is lit by them need not be shaded again for another view.
+#[must_use]
+pub fn lamps(world: &World, how: &Reflectance) -> Lamps {
+    let depends = depends_on_view(world, how);
+    Lamps::of(world, if depends { direction(world) } else { ANYWHERE })
+}
+
+/// How the view samples; the defaults where it states nothing.
+#[must_use]
+pub fn sampling(world: &World) -> Sampling {
+    let sampling = first_view(world).and_then(|entity| world.get::<&Sampling>(entity).ok());
+    sampling.map_or_else(Sampling::default, |sampling| (*sampling).clone())
+}
+
+/// Whether the view states a depth cue: ambient light, which is not cued, is then kept apart.
+#[must_use]
+pub fn is_cued(world: &World) -> bool {
+    first_view(world).is_some_and(|entity| world.get::<&DepthCue>(entity).is_ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_view_in_the_order_of_the_scene_counts() {
+        let mut world = World::new();
+        assert_eq!(direction(&world), ANYWHERE);
+        let side = View { azimuth: 90.0, ..View::default() };
+        world.spawn((Order(2), View::default()));
+        let first = world.spawn((Order(1), side, DepthCue { k1: 1.0, k2: 0.1 }));
+        assert_eq!(first_view(&world), Some(first));
+        assert_eq!(direction(&world), DVec3::X);
+        assert!(is_cued(&world));
+        assert_eq!(sampling(&world), Sampling::default());
+    }
+}

@@ -1,0 +1,5 @@
+//! Polygons: checked faces, the textures that are mapped onto them, and what they cover of the voxels near them.
+
+pub mod coverage;
+pub mod face;
+pub mod texture;

@@ -1,0 +1,105 @@
+//! Textures on polygons (paper §5): a mapping from object space to texture space, and the texture filtered there.
+//!
+//! The view is parallel, so the map from the picture to the polygon's plane and on to the texture is affine: a square
+//! of the picture becomes the same parallelogram, the [`Footprint`], wherever on a face it lies. A lookup is the
+//! average of the texture over that parallelogram; the filters differ in how exactly they take it.
+
+use std::sync::Arc;
+
+use glam::{DVec2, Vec4};
+
+use crate::components::{TextureFilter, Wrap};
+use crate::view::picture::Picture;
+
+mod area;
+mod bilinear;
+mod ellipse;
+mod footprint;
+mod mapping;
+mod mip;
+
+pub use footprint::Footprint;
+pub use mapping::Mapping;
+use mip::Level;
+
+/// Texels that the slower filters read for one lookup, about; larger footprints are averaged over a coarser level.
+const MOST_TEXELS: f64 = 4096.0;
+
+/// A texture ready for lookups: linear, associated RGBA and its coarser levels, shared by pointer.
+#[derive(Debug, Clone)]
+pub struct Texture {
+    levels: Arc<[Level]>,
+    wrap: Wrap,
+    filter: TextureFilter,
+}
+
+impl PartialEq for Texture {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.levels, &other.levels)
+            && self.wrap == other.wrap
+            && self.filter == other.filter
+    }
+}
+
+impl Texture {
+    /// Takes the texels of `picture` and averages them into coarser levels, down to a single texel.
+    ///
+    /// Colours that are not finite become 0, opacities are held within 0..=1; a picture of no pixels is transparent.
+    #[must_use]
+    pub fn new(picture: &Picture, wrap: Wrap, filter: TextureFilter) -> Self {
+        Self { levels: mip::levels(picture).into(), wrap, filter }
+    }
+
+    /// Another way to look up the same texels, which are shared.
+    #[must_use]
+    pub fn with(&self, wrap: Wrap, filter: TextureFilter) -> Self {
+        Self { levels: Arc::clone(&self.levels), wrap, filter }
+    }
+
+    /// Texels across and down.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        self.levels[0].size
+    }
+
+    /// Bytes that all levels take.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.levels.iter().map(|level| size_of_val(&*level.texels) as u64).sum()
+    }
+
+    /// The texture's mean over `footprint` about `uv` by the filter it was made with: linear, associated RGBA.
+    ///
+    /// `uv` is (0, 0) at the top left corner of the texture and (1, 1) at the bottom right one. The result is a convex
+    /// combination of texels, and of nothing where the texture vanishes: opacity is within 0..=1, never NaN.
+    #[must_use]
+    pub fn filtered(&self, uv: DVec2, footprint: &Footprint) -> Vec4 {
+        let uv = self.placed(uv);
+        match self.filter {
+            TextureFilter::Area => area::average(&self.levels, self.wrap, uv, footprint),
+            TextureFilter::Ellipse => ellipse::average(&self.levels, self.wrap, uv, footprint),
+            TextureFilter::Trilinear => bilinear::trilinear(&self.levels, self.wrap, uv, footprint),
+            TextureFilter::Bilinear => bilinear::bilinear(&self.levels[0], self.wrap, uv),
+            TextureFilter::Nearest => bilinear::nearest(&self.levels[0], self.wrap, uv),
+        }
+    }
+
+    /// The texture's mean over exactly the parallelogram of `footprint`, at least a texel wide: the reference.
+    ///
+    /// Each texel counts by the area it shares with the parallelogram, as Feibush, Levoy and Cook weigh texels by a
+    /// square pixel. Same units and range as [`Texture::filtered`].
+    #[must_use]
+    pub fn average(&self, uv: DVec2, footprint: &Footprint) -> Vec4 {
+        area::average(&self.levels, self.wrap, self.placed(uv), footprint)
+    }
+
+    /// A finite `uv`, within the texture itself where that repeats, so that fractions of a texel keep their digits.
+    fn placed(&self, uv: DVec2) -> DVec2 {
+        let finite = |x: f64| if x.is_nan() { 0.5 } else { x.clamp(-1e9, 1e9) };
+        let uv = DVec2::new(finite(uv.x), finite(uv.y));
+        if self.wrap == Wrap::Repeat { uv - uv.floor() } else { uv }
+    }
+}
+
+#[cfg(test)]
+mod tests;

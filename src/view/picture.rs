@@ -1,0 +1,40 @@
+//! Pictures in memory: what a view sees, what a texture holds, what `compare` compares.
+
+use crate::volume::grid::Shared;
+
+/// An image of linear, associated RGBA: row 0 is the top, x runs fastest, `size[0] · size[1]` texels.
+///
+/// Colours of light within 0..=1 lie in 0..=alpha; brighter light may exceed it. Alpha is in 0..=1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Pixels across and down.
+    pub size: [usize; 2],
+    /// Red, green, blue and alpha of each pixel.
+    pub pixels: Shared<[f32; 4]>,
+}
+
+impl Picture {
+    /// A picture of the given size; `None` unless there are `size[0] · size[1]` pixels.
+    #[must_use]
+    pub fn new(size: [usize; 2], pixels: Vec<[f32; 4]>) -> Option<Self> {
+        (size[0].checked_mul(size[1])? == pixels.len())
+            .then(|| Self { size, pixels: Shared::new(pixels) })
+    }
+
+    /// The pixel at column `x` of row `y`; panics outside the picture.
+    #[must_use]
+    pub fn pixel(&self, x: usize, y: usize) -> [f32; 4] {
+        self.pixels[y * self.size[0] + x]
+    }
+
+    /// The picture over a background of one colour, opaque then.
+    #[must_use]
+    pub fn over(&self, background: glam::Vec3) -> Self {
+        let [r, g, b] = background.to_array();
+        let over = |&[pr, pg, pb, a]: &[f32; 4]| {
+            let through = 1.0 - a;
+            [pr + through * r, pg + through * g, pb + through * b, 1.0]
+        };
+        Self { size: self.size, pixels: Shared::new(self.pixels.iter().map(over).collect()) }
+    }
+}

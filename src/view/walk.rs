@@ -1,0 +1,180 @@
+//! Parallel rays: the view's frame in the world, and a ray through the voxels of a grid (algorithm §1).
+
+use glam::{DVec2, DVec3, I64Vec3};
+
+use crate::components::View;
+use crate::polygon::face::Extent;
+use crate::volume::grid::Grid;
+
+/// The frame of a parallel view: unit vectors, the focal point, and how large a pixel is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// To the right in the picture.
+    pub right: DVec3,
+    /// Upwards in the picture.
+    pub up: DVec3,
+    /// Along the rays, away from the observer.
+    pub forward: DVec3,
+    /// The world point in the middle of the window, where `t` is 0.
+    pub focal: DVec3,
+    /// The side of a pixel, world units.
+    pub pixel: f64,
+    /// Pixels across and down.
+    pub size: [usize; 2],
+}
+
+impl Camera {
+    /// The frame of `view` in a scene of extent `extent`.
+    ///
+    /// The observer stands towards `(sin a cos e, −cos a cos e, sin e)` from the focal point, view-up is +z; at an
+    /// elevation of ±90° it is the limit from below. Quarter turns are exact.
+    #[must_use]
+    pub fn new(view: &View, extent: &Extent) -> Self {
+        let ((sin_a, cos_a), (sin_e, cos_e)) = (sin_cos(view.azimuth), sin_cos(view.elevation));
+        let forward = -DVec3::new(sin_a * cos_e, -cos_a * cos_e, sin_e);
+        let right = DVec3::new(cos_a, sin_a, 0.0);
+        let up = right.cross(forward);
+        let (sin_r, cos_r) = sin_cos(view.roll);
+        let focal = view.focal_point.map_or_else(|| extent.center(), DVec3::from);
+        let height = view.height_mm.unwrap_or(2.0 * extent.radius());
+        Self {
+            right: right * cos_r - up * sin_r,
+            up: up * cos_r + right * sin_r,
+            forward,
+            focal,
+            pixel: height / f64::from(view.size[1]),
+            size: view.size.map(|n| n as usize),
+        }
+    }
+
+    /// The world point at depth 0 of the ray through window position `(x, y)`, in pixels from the top left corner.
+    #[must_use]
+    pub fn origin(&self, window: DVec2) -> DVec3 {
+        let [width, height] = self.size.map(|n| n as f64);
+        let (x, y) = (window.x - width / 2.0, height / 2.0 - window.y);
+        self.focal + self.right * (x * self.pixel) + self.up * (y * self.pixel)
+    }
+
+    /// Window position in pixels and depth in world units of a world point.
+    #[must_use]
+    pub fn project(&self, point: DVec3) -> (DVec2, f64) {
+        let [width, height] = self.size.map(|n| n as f64);
+        let from = point - self.focal;
+        let (x, y) = (self.right.dot(from) / self.pixel, self.up.dot(from) / self.pixel);
+        (DVec2::new(x + width / 2.0, height / 2.0 - y), self.forward.dot(from))
+    }
+}
+
+/// Sine and cosine of an angle in degrees, exact at quarter turns and the same on every machine.
+#[must_use]
+pub fn sin_cos(degrees: f64) -> (f64, f64) {
+    let turn = degrees.rem_euclid(360.0);
+    match turn {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        _ => libm::sincos(turn.to_radians()),
+    }
+}
+
+/// Bits of a voxel index behind the point.
+pub const FRACTION_BITS: u32 = 40;
+const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
+
+/// How the samples of every ray of a view walk through a grid: sample `k` lies at depth `(k + 1/2) Δ`.
+///
+/// Positions are fixed-point voxel indices, so that going on by n steps is exact however the n are grouped: stepping
+/// over empty space lands on the very samples that walking would have met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Walk {
+    world_to_index: glam::DAffine3,
+    /// Δ, world units.
+    distance: f64,
+    forward: DVec3,
+    last: I64Vec3,
+    /// Voxel indices a step, fixed-point.
+    pub step: I64Vec3,
+    /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the rays do not move on.
+    pub per_step: [f64; 3],
+    /// Whether a step is half a voxel or more: then a cell of eight voxels is not worth a leap.
+    pub is_coarse: bool,
+}
+
+/// The samples of one ray that lie in the domain: numbers `first..end`, and where the first of them is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Samples {
+    /// Number of the first sample.
+    pub first: i64,
+    /// One past the number of the last.
+    pub end: i64,
+    /// Fixed-point voxel index of sample `first`.
+    pub at: I64Vec3,
+}
+
+impl Walk {
+    /// The walk of `camera`'s rays through `grid` with samples `distance` (world units, above 0) apart.
+    ///
+    /// A step is at least 2⁻⁴⁰ and at most 2²⁰ voxels along the axis that it moves most on; the error names the remedy.
+    pub fn new(grid: &Grid, camera: &Camera, distance: f64) -> Result<Self, String> {
+        let world_to_index = grid.world_to_index();
+        let step = world_to_index.transform_vector3(camera.forward * distance);
+        let most = step.abs().max_element();
+        if !(1.0 / UNIT..=1_048_576.0).contains(&most) {
+            return Err(format!(
+                "a sample distance of {distance} is {most:.1e} voxels; choose `sampling.distance_mm` near the voxel spacing"
+            ));
+        }
+        let step = step.to_array().map(|s| (s * UNIT).round() as i64);
+        let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
+        let last = I64Vec3::from(grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS));
+        let is_coarse = most >= 0.5;
+        let forward = camera.forward;
+        let step = I64Vec3::from(step);
+        Ok(Self { world_to_index, distance, forward, last, step, per_step, is_coarse })
+    }
+
+    /// The samples in the domain of the ray through world point `origin` at depth 0; `None` if there are none.
+    #[must_use]
+    pub fn enter(&self, origin: DVec3) -> Option<Samples> {
+        let start =
+            self.world_to_index.transform_point3(origin + self.forward * (0.5 * self.distance));
+        // The interval in steps from `start`, in floating point, is widened by a step and then cut exactly.
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..3 {
+            let (from, step) = (start[axis], self.step[axis] as f64 / UNIT);
+            let last = (self.last[axis] >> FRACTION_BITS) as f64;
+            if self.step[axis] == 0 {
+                if !(0.0..=last).contains(&from) {
+                    return None;
+                }
+            } else {
+                let (a, b) = (-from / step, (last - from) / step);
+                low = low.max(a.min(b));
+                high = high.min(a.max(b));
+            }
+        }
+        if low > high + 2.0 || low.abs() > 1e15 || high.abs() > 1e15 {
+            return None;
+        }
+        self.cut(start, low.floor() as i64 - 1, high.ceil() as i64 + 2)
+    }
+
+    /// Exactly the samples of `first..end` that are inside, positions counted from the first of them.
+    fn cut(&self, start: DVec3, first: i64, end: i64) -> Option<Samples> {
+        let middle = first + (end - first) / 2;
+        let place = start + (self.step.as_dvec3() / UNIT) * middle as f64;
+        let place = (place * UNIT).round().as_i64vec3();
+        let at = |k: i64| place + self.step * (k - middle);
+        let inside = |k: i64| {
+            let at = at(k);
+            at.cmpge(I64Vec3::ZERO).all() && at.cmple(self.last).all()
+        };
+        let first = (first..end.min(first + 6)).find(|&k| inside(k))?;
+        let last = (first.max(end - 6)..end).rev().find(|&k| inside(k))?;
+        Some(Samples { first, end: last + 1, at: at(first) })
+    }
+}
+
+#[cfg(test)]
+mod tests;

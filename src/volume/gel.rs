@@ -1,0 +1,301 @@
+//! The coloured, semi-transparent gel that rays sample: bricks of associated RGBA with an apron.
+//!
+//! A brick holds 8³ *cells* (the cube between eight neighbouring voxels) and for them 9³ texels: the ninth of each row
+//! repeats the next brick's first, so that a sample touches one brick. Texels beyond the last voxel are zero, so that a
+//! sample on the last plane of voxels needs no clamp. A brick without an interesting voxel takes no memory.
+
+use std::sync::Arc;
+
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
+
+use crate::components::TexelKind;
+
+/// Cells along one edge of a brick.
+pub const CELLS: usize = 8;
+const ROW: usize = CELLS + 1;
+/// Texels of a brick.
+pub const TEXELS: usize = ROW * ROW * ROW;
+/// The table's entry for a brick that is not stored.
+pub const EMPTY: u32 = u32::MAX;
+
+/// A number type that four channels of the gel are kept in; colour and opacity in 0..=1.
+pub trait Texel: Copy + Default + Send + Sync + 'static {
+    /// The channels as stored numbers: 1 is `1 / SCALE`.
+    fn load(self) -> Vec4;
+    /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
+    /// without opacity are stepped over.
+    fn store(channels: Vec4) -> Self;
+    /// What a stored number is multiplied by.
+    const SCALE: f32;
+}
+
+impl Texel for [f32; 4] {
+    fn load(self) -> Vec4 {
+        Vec4::from_array(self)
+    }
+    fn store(channels: Vec4) -> Self {
+        channels.to_array()
+    }
+    const SCALE: f32 = 1.0;
+}
+
+impl Texel for [u16; 4] {
+    fn load(self) -> Vec4 {
+        Vec4::from_array(self.map(f32::from))
+    }
+    fn store(channels: Vec4) -> Self {
+        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16);
+        if texel[3] == 0 { Self::default() } else { texel }
+    }
+    const SCALE: f32 = 1.0 / 65535.0;
+}
+
+impl Texel for [u8; 4] {
+    fn load(self) -> Vec4 {
+        Vec4::from_array(self.map(f32::from))
+    }
+    fn store(channels: Vec4) -> Self {
+        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
+        if texel[3] == 0 { Self::default() } else { texel }
+    }
+    const SCALE: f32 = 1.0 / 255.0;
+}
+
+/// The gel in one number type. Shared by pointer, equality is identity.
+#[derive(Debug)]
+pub struct Texels<T>(Arc<Stored<T>>);
+
+#[derive(Debug)]
+struct Stored<T> {
+    counts: [usize; 3],
+    table: Vec<u32>,
+    /// The stored bricks, and a last one of zeros that stands for all that are not stored.
+    bricks: Vec<[T; TEXELS]>,
+}
+
+impl<T> Clone for Texels<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<T> PartialEq for Texels<T> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl<T: Texel> Texels<T> {
+    /// Makes the gel of a grid of `size` voxels.
+    ///
+    /// `holds(brick)` says whether a brick is stored (whether one of the 9³ voxels from its first on is interesting);
+    /// `fill(first, row)` gives associated RGBA of a row of 9 voxels from voxel `first` on along x. It is asked for
+    /// voxels inside the grid alone; `row` is as short as the grid ends.
+    pub fn make(
+        size: [usize; 3],
+        holds: impl Fn([usize; 3]) -> bool + Sync,
+        fill: impl Fn([usize; 3], &mut [Vec4]) + Sync,
+    ) -> Self {
+        let counts = size.map(|n| n.div_ceil(CELLS));
+        let [nx, ny, nz] = counts;
+        let place = |at: usize| [at % nx, at / nx % ny, at / (nx * ny)];
+        let mut table: Vec<u32> = (0..nx * ny * nz)
+            .into_par_iter()
+            .map(|at| if holds(place(at)) { 0 } else { EMPTY })
+            .collect();
+        let mut stored = Vec::new();
+        for (at, entry) in table.iter_mut().enumerate().filter(|(_, entry)| **entry != EMPTY) {
+            *entry = stored.len() as u32;
+            stored.push(place(at));
+        }
+        let filled = stored.par_iter().map(|&brick| fill_brick(size, brick, &fill));
+        let zeros = rayon::iter::once([T::default(); TEXELS]);
+        let bricks = filled.chain(zeros).collect();
+        Self(Arc::new(Stored { counts, table, bricks }))
+    }
+
+    /// Bricks on each axis.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 3] {
+        self.0.counts
+    }
+
+    /// For each brick of the grid, x fastest: its number among the stored ones, or [`EMPTY`].
+    #[must_use]
+    pub fn table(&self) -> &[u32] {
+        &self.0.table
+    }
+
+    /// The texels of the stored bricks, x fastest.
+    #[must_use]
+    pub fn bricks(&self) -> &[[T; TEXELS]] {
+        &self.0.bricks[..self.0.bricks.len() - 1]
+    }
+
+    /// The arrays behind the pointers, for rays.
+    #[must_use]
+    pub fn slices(&self) -> TexelSlices<'_, T> {
+        let Stored { counts, table, bricks } = &*self.0;
+        TexelSlices { counts: *counts, table, bricks }
+    }
+
+    /// Which cells of stored brick `brick` are interesting: bit `8 y + x` of word `z`, set if one of its eight texels
+    /// has an opacity above zero. Level 0 of the paper's pyramid.
+    #[must_use]
+    pub fn interesting_cells(&self, brick: u32) -> [u64; CELLS] {
+        let texels = &self.0.bricks[brick as usize];
+        let opaque = |z: usize, y: usize| {
+            let row = &texels[(z * ROW + y) * ROW..][..ROW];
+            row.iter()
+                .enumerate()
+                .fold(0_u64, |bits, (x, texel)| bits | u64::from(texel.load().w > 0.0) << x)
+        };
+        // Nine bits a row: a cell is interesting if a bit of its row or the next one, in its slice or the next, is set.
+        let slices: [[u64; CELLS]; ROW] = std::array::from_fn(|z| {
+            let rows: [u64; ROW] = std::array::from_fn(|y| opaque(z, y));
+            std::array::from_fn(|y| rows[y] | rows[y + 1])
+        });
+        std::array::from_fn(|z| {
+            (0..CELLS).fold(0, |bits, y| {
+                let row = slices[z][y] | slices[z + 1][y];
+                bits | ((row | row >> 1) & 0xff) << (8 * y)
+            })
+        })
+    }
+
+    /// Bytes that the bricks and their table take.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        (self.0.bricks.len() * size_of::<[T; TEXELS]>() + self.0.table.len() * 4) as u64
+    }
+}
+
+/// The arrays of some gel, a pointer nearer.
+#[derive(Debug, Clone, Copy)]
+pub struct TexelSlices<'a, T> {
+    counts: [usize; 3],
+    table: &'a [u32],
+    bricks: &'a [[T; TEXELS]],
+}
+
+impl<T: Texel> TexelSlices<'_, T> {
+    /// The place in the table of the brick around a cell, and what the table says there.
+    #[must_use]
+    #[inline]
+    pub fn brick(self, cell: [usize; 3]) -> (usize, u32) {
+        let [x, y, z] = [cell[0] / CELLS, cell[1] / CELLS, cell[2] / CELLS];
+        let entry = (z * self.counts[1] + y) * self.counts[0] + x;
+        (entry, self.table[entry])
+    }
+
+    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
+    /// 0..1 within the cell.
+    ///
+    /// The result is associated RGBA per opacity unit; exactly zero where all eight texels are.
+    #[must_use]
+    #[inline]
+    pub fn sample(self, brick: u32, cell: [usize; 3], at: Vec3) -> Vec4 {
+        let texels = &self.bricks[(brick as usize).min(self.bricks.len() - 1)];
+        let first = ((cell[2] & 7) * ROW + (cell[1] & 7)) * ROW + (cell[0] & 7);
+        let row = |offset: usize| {
+            let pair = &texels[first + offset..first + offset + 2];
+            let (low, high) = (pair[0].load(), pair[1].load());
+            low + (high - low) * at.x
+        };
+        let (y0, y1) = (row(0), row(ROW));
+        let z0 = y0 + (y1 - y0) * at.y;
+        let (y0, y1) = (row(ROW * ROW), row(ROW * ROW + ROW));
+        let z1 = y0 + (y1 - y0) * at.y;
+        (z0 + (z1 - z0) * at.z) * T::SCALE
+    }
+}
+
+fn fill_brick<T: Texel>(
+    size: [usize; 3],
+    brick: [usize; 3],
+    fill: &impl Fn([usize; 3], &mut [Vec4]),
+) -> [T; TEXELS] {
+    let first = brick.map(|b| b * CELLS);
+    let extent: [usize; 3] = std::array::from_fn(|axis| ROW.min(size[axis] - first[axis]));
+    let mut texels = [T::default(); TEXELS];
+    let mut row = [Vec4::ZERO; ROW];
+    for z in 0..extent[2] {
+        for y in 0..extent[1] {
+            row.fill(Vec4::ZERO);
+            fill([first[0], first[1] + y, first[2] + z], &mut row[..extent[0]]);
+            let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
+            made.iter_mut().zip(&row).for_each(|(texel, channels)| *texel = T::store(*channels));
+        }
+    }
+    texels
+}
+
+/// The gel, in the number type that the view's `sampling` states.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(missing_docs, reason = "the variants are the types")]
+pub enum Gel {
+    F32(Texels<[f32; 4]>),
+    U16(Texels<[u16; 4]>),
+    U8(Texels<[u8; 4]>),
+}
+
+/// Runs an expression on the typed texels inside [`Gel`]: `with_texels!(gel, texels => expression)`.
+#[macro_export]
+macro_rules! with_texels {
+    ($gel:expr, $texels:ident => $body:expr) => {
+        match $gel {
+            $crate::volume::gel::Gel::F32($texels) => $body,
+            $crate::volume::gel::Gel::U16($texels) => $body,
+            $crate::volume::gel::Gel::U8($texels) => $body,
+        }
+    };
+}
+
+impl Gel {
+    /// [`Texels::make`] in the type of `kind`; in 32 bits where that is left open.
+    pub fn make(
+        kind: TexelKind,
+        size: [usize; 3],
+        holds: impl Fn([usize; 3]) -> bool + Sync,
+        fill: impl Fn([usize; 3], &mut [Vec4]) + Sync,
+    ) -> Self {
+        match kind {
+            TexelKind::Auto | TexelKind::F32 => Self::F32(Texels::make(size, holds, fill)),
+            TexelKind::U16 => Self::U16(Texels::make(size, holds, fill)),
+            TexelKind::U8 => Self::U8(Texels::make(size, holds, fill)),
+        }
+    }
+
+    /// The numbers that it is kept in.
+    #[must_use]
+    pub fn kind(&self) -> TexelKind {
+        match self {
+            Self::F32(_) => TexelKind::F32,
+            Self::U16(_) => TexelKind::U16,
+            Self::U8(_) => TexelKind::U8,
+        }
+    }
+
+    /// Bytes that the bricks and their table take.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        with_texels!(self, texels => texels.bytes())
+    }
+}
+
+/// The most bytes that gel of `kind` can take on a grid of `size` voxels, for a plan.
+#[must_use]
+pub fn most_bytes(kind: TexelKind, size: [usize; 3]) -> u64 {
+    let bricks: u64 = size.iter().map(|n| n.div_ceil(CELLS) as u64).product();
+    let texel = match kind {
+        TexelKind::Auto | TexelKind::F32 => 16,
+        TexelKind::U16 => 8,
+        TexelKind::U8 => 4,
+    };
+    // And the brick of zeros.
+    (bricks + 1) * TEXELS as u64 * texel + bricks * 4
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,11 @@
+//! Volumes: where voxels are and what they hold, how they are classified, and the gel that rays meet.
+
+pub mod bricks;
+pub mod classification;
+pub mod clipping;
+pub mod gel;
+pub mod grid;
+pub mod painting;
+pub mod pyramid;
+pub mod relit;
+pub mod seen;

@@ -1,0 +1,192 @@
+//! A layer of opacities and colours under its lights: `c_T = Σ c_i β_i` (equation 4), made into gel.
+
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
+
+use crate::components::TexelKind;
+use crate::products::LightStrength;
+use crate::volume::bricks::{Bricks, EDGE, Place};
+use crate::volume::gel::Gel;
+
+/// Gel that is nowhere more opaque than this is kept in 32 bits.
+const FAINT: f32 = 1.0 / 16.0;
+
+/// Colours of the interesting voxels of a layer, and what weakens them.
+#[derive(Debug)]
+pub struct Relit<'a> {
+    /// α.
+    pub opacity: &'a Bricks<f32>,
+    /// What no shadow weakens.
+    pub base: &'a Bricks<[f32; 3]>,
+    /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
+    pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a LightStrength>)>,
+}
+
+impl Relit<'_> {
+    /// The associated gel: `c_T · α` and α. `Auto` is decided by what there is.
+    #[must_use]
+    pub fn gel(&self, kind: TexelKind) -> Gel {
+        let fill = |[x, y, z]: [usize; 3], row: &mut [Vec4]| {
+            let brick = [x / EDGE, y / EDGE, z / EDGE];
+            let within = (z % EDGE * EDGE + y % EDGE) * EDGE;
+            let (own, next) = row.split_at_mut(row.len().min(EDGE));
+            self.fill(brick, within, own);
+            if !next.is_empty() {
+                self.fill([brick[0] + 1, brick[1], brick[2]], within, next);
+            }
+        };
+        let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
+        Gel::make(kind, self.opacity.size(), |brick| self.holds(brick), fill)
+    }
+
+    /// 16-bit texels where their steps are small against the gel and none of its colours is above 1; else 32-bit ones.
+    fn suited(&self) -> TexelKind {
+        let bricks: Vec<_> = self.opacity.stored().collect();
+        let opaque = bricks.par_iter().any(|(_, alpha)| alpha.iter().any(|alpha| *alpha > FAINT));
+        let bright = |place: Place| {
+            let channel = |bricks: &Bricks<[f32; 3]>| {
+                let colors = bricks.brick(place.brick).into_iter().flatten().flatten();
+                colors.fold(0.0, |most: f32, channel| if *channel > most { *channel } else { most })
+            };
+            let full = |strength: Option<&LightStrength>| strength.map_or(1.0, |s| s.full);
+            let shadowed = self.shadowed.iter();
+            let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
+            channel(self.base) + shadowed > 1.0
+        };
+        let bright = || bricks.par_iter().any(|(place, _)| bright(*place));
+        if opaque && !bright() { TexelKind::U16 } else { TexelKind::F32 }
+    }
+
+    /// Fills part of a row from the voxels of `brick` at `within` on.
+    fn fill(&self, brick: [usize; 3], within: usize, row: &mut [Vec4]) {
+        let Some(opacity) = self.opacity.brick(brick) else { return };
+        let opacity = &opacity[within..][..row.len()];
+        if opacity.iter().all(|alpha| *alpha <= 0.0) {
+            return;
+        }
+        let mut colors = [Vec3::ZERO; EDGE];
+        if let Some(base) = self.base.brick(brick) {
+            for (color, base) in colors.iter_mut().zip(&base[within..][..row.len()]) {
+                *color = Vec3::from(*base);
+            }
+        }
+        for (light, strength) in &self.shadowed {
+            let Some(light) = light.brick(brick) else { continue };
+            let light = &light[within..][..row.len()];
+            let beta = betas(*strength, brick, within);
+            for ((color, light), beta) in colors.iter_mut().zip(light).zip(beta) {
+                *color += Vec3::from(*light) * beta;
+            }
+        }
+        for ((texel, color), alpha) in row.iter_mut().zip(colors).zip(opacity) {
+            *texel = (color * *alpha).extend(*alpha);
+        }
+    }
+
+    /// Whether one of the 9³ voxels from the brick's first on is interesting: one of its own, or of the first plane, line
+    /// or voxel of a brick after it.
+    fn holds(&self, brick: [usize; 3]) -> bool {
+        let counts = self.opacity.counts();
+        (0..8_usize).any(|corner| {
+            let after: [usize; 3] = std::array::from_fn(|axis| corner >> axis & 1);
+            let at: [usize; 3] = std::array::from_fn(|axis| brick[axis] + after[axis]);
+            let inside = (0..3).all(|axis| at[axis] < counts[axis]);
+            let stored = if inside { self.opacity.brick(at) } else { None };
+            let Some(alpha) = stored else { return false };
+            let [ex, ey, ez] = after.map(|after| if after == 1 { 1 } else { EDGE });
+            let mut rows = (0..ez).flat_map(|z| (0..ey).map(move |y| (z * EDGE + y) * EDGE));
+            rows.any(|row| alpha[row..][..ex].iter().any(|alpha| *alpha > 0.0))
+        })
+    }
+}
+
+/// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
+fn betas(strength: Option<&LightStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
+    let Some(LightStrength { voxels, full, .. }) = strength else { return [1.0; EDGE] };
+    let Some(stored) = voxels.brick(brick) else { return [0.0; EDGE] };
+    std::array::from_fn(|x| f32::from(stored[within + x]) / 65535.0 * full)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::volume::gel::{CELLS, EMPTY};
+
+    const SIZE: [usize; 3] = [20, 17, 10];
+
+    fn alpha([x, y, z]: [usize; 3]) -> f32 {
+        if x + y + z < 13 || [x, y, z] == [16, 16, 8] { 0.25 + x as f32 / 64.0 } else { 0.0 }
+    }
+
+    fn opacity() -> Bricks<f32> {
+        Bricks::make(SIZE, |place, brick| {
+            place.voxels().for_each(|(at, voxel)| brick[at] = alpha(voxel));
+            brick.iter().any(|alpha| *alpha > 0.0)
+        })
+    }
+
+    fn colors(opacity: &Bricks<f32>, color: [f32; 3]) -> Bricks<[f32; 3]> {
+        opacity.map(|_, _, made| made.fill(color))
+    }
+
+    fn texel(gel: &Gel, voxel: [usize; 3]) -> Option<Vec4> {
+        let Gel::F32(texels) = gel else { panic!("32-bit gel was asked for") };
+        let [nx, ny, _] = texels.counts();
+        let [x, y, z] = voxel.map(|n| n / CELLS);
+        let brick = texels.table()[(z * ny + y) * nx + x];
+        (brick != EMPTY)
+            .then(|| texels.slices().sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO))
+    }
+
+    #[test]
+    fn texels_are_16_bit_for_gel_that_is_opaque_somewhere_and_lit_within_1() {
+        let kind = |alpha: f32, light: f32| {
+            let opacity = Bricks::make(SIZE, |_, brick| {
+                brick.fill(alpha);
+                true
+            });
+            let base = Bricks::make(SIZE, |_, brick| {
+                brick.fill([light, 0.5, 0.0]);
+                true
+            });
+            Relit { opacity: &opacity, base: &base, shadowed: Vec::new() }.suited()
+        };
+        assert_eq!(kind(0.5, 1.0), TexelKind::U16);
+        assert_eq!([kind(0.05, 1.0), kind(0.5, 1.5)], [TexelKind::F32; 2]);
+    }
+
+    #[test]
+    fn colors_are_weakened_summed_and_associated() {
+        let opacity = opacity();
+        let [base, first, second] = [[0.1, 0.2, 0.3], [0.4, 0.0, 0.0], [0.0, 0.0, 0.5]]
+            .map(|color| colors(&opacity, color));
+        let half = opacity.map(|_, _, made| made.fill(32768));
+        let strength = LightStrength { voxels: half, full: 0.5, buffer: None };
+        let shadowed = vec![(&first, Some(&strength)), (&second, None)];
+        let gel = Relit { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
+        let beta = 32768.0 / 65535.0 * 0.5;
+        for (x, y, z) in (0..3400).map(|i| (i % 20, i / 20 % 17, i / 340)) {
+            let alpha = alpha([x, y, z]);
+            let expected = Vec4::new(0.1 + 0.4 * beta, 0.2, 0.8, 1.0) * alpha;
+            let made = texel(&gel, [x, y, z]);
+            assert!(made.unwrap_or_default().abs_diff_eq(expected, 1e-6), "{x} {y} {z}: {made:?}");
+        }
+    }
+
+    #[test]
+    fn a_brick_is_held_exactly_if_one_of_its_nine_cubed_voxels_is_interesting() {
+        let opacity = opacity();
+        let base = colors(&opacity, [1.0; 3]);
+        let relit = Relit { opacity: &opacity, base: &base, shadowed: Vec::new() };
+        let mut held = 0;
+        for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
+            let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {
+                let voxel: [usize; 3] = std::array::from_fn(|a| brick[a] * CELLS + step[a]);
+                (0..3).all(|a| voxel[a] < SIZE[a]) && alpha(voxel) > 0.0
+            });
+            assert_eq!(relit.holds(brick), expected, "{brick:?}");
+            held += usize::from(expected);
+        }
+        assert!((1..18).contains(&held));
+    }
+}

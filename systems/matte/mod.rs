@@ -1,0 +1,261 @@
+//! Volume matting: polygons' colours and opacities combined with the volume's to c_C and α_C, in the order of the scene
+//! (paper §3, figure 4).
+
+use glam::{Vec3, Vec4};
+use hecs::{Entity, World};
+use rayon::prelude::*;
+
+use crate::components::{CastsShadow, Clip, Light, Order, Surface, Voxelize};
+use crate::error::Error;
+use crate::light::observer;
+use crate::polygon::coverage::matting::{footprint, weights};
+use crate::polygon::coverage::{Ball, Flat};
+use crate::polygon::face::Faces;
+use crate::products::{Composite, Coverage, Layer, LitColors, Opacity};
+use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
+use crate::volume::grid::{Grid, Painted};
+use crate::volume::painting::Painting;
+use crate::volume::seen;
+
+/// Makes the [`Composite`] of the scene's volume, only if some polygon is scan-converted into it.
+pub struct Matte;
+
+/// What a composite is made from: the volume, and the polygons in the order of the scene.
+#[derive(Clone, PartialEq)]
+struct Inputs {
+    grid: Grid,
+    unit: f64,
+    volume: Volume,
+    polygons: Vec<Polygon>,
+}
+
+/// What a polygon is matted with.
+#[derive(Clone, PartialEq)]
+enum Volume {
+    /// Classified and shaded here.
+    Made(Bricks<f32>, LitColors),
+    /// Came classified and shaded: no light of the scene changes its colours.
+    Painted(Painted, Option<Clip>),
+    /// Neither: the polygons are alone.
+    Clear,
+}
+
+#[derive(Clone, PartialEq)]
+struct Polygon {
+    coverage: Layer,
+    voxelize: Voxelize,
+    surface: Surface,
+    faces: Faces,
+}
+
+/// One of the colours that a layer keeps.
+#[derive(Clone, Copy, PartialEq)]
+enum Channel {
+    Base,
+    Shadowed(usize),
+    Ambient,
+}
+
+impl System for Matte {
+    type Product = Composite;
+    const NAME: &'static str = "matte";
+    const READS: &'static [Kind] = &[
+        Kind::Order,
+        Kind::Grid,
+        Kind::OpacityUnit,
+        Kind::Opacity,
+        Kind::LitColors,
+        Kind::Painted,
+        Kind::Clip,
+        Kind::Coverage,
+        Kind::Faces,
+        Kind::Surface,
+        Kind::Voxelize,
+    ];
+
+    fn run(world: &World, out: &mut Outbox<'_, Composite>) -> Result<(), Error> {
+        let polygons = Polygon::all(world);
+        let Some((entity, grid, unit)) = seen::first(world).filter(|_| !polygons.is_empty()) else {
+            return Ok(());
+        };
+        let inputs = Inputs { grid, unit, volume: Volume::of(world, entity), polygons };
+        out.derive(entity, inputs, |inputs| Ok(Composite(inputs.composite())))
+    }
+
+    fn plan(world: &World) -> Plan {
+        let voxelized = world.query::<(&Voxelize, &Surface, &Faces)>().iter().next().is_some();
+        let Some((entity, grid, _)) = seen::first(world).filter(|_| voxelized) else {
+            return Plan::absent("no polygon is scan-converted into a volume");
+        };
+        let cued = observer::is_cued(world);
+        let shadowed = world.query::<&Light>().with::<&CastsShadow>().iter().count();
+        let colors = (1 + u64::from(cued) + shadowed as u64)
+            .saturating_mul(bricks::most_bytes::<[f32; 3]>(grid.size));
+        let bytes = colors.saturating_add(bricks::most_bytes::<f32>(grid.size));
+        Plan { makes: vec![(entity, bytes)], why: "a polygon carries `voxelize`" }
+    }
+}
+
+impl Volume {
+    fn of(world: &World, entity: Entity) -> Self {
+        let opacity = world.get::<&Opacity>(entity).ok();
+        let colors = world.get::<&LitColors>(entity).ok();
+        if let (Some(opacity), Some(colors)) = (opacity, colors) {
+            return Self::Made(opacity.voxels.clone(), (*colors).clone());
+        }
+        let clip = world.get::<&Clip>(entity).ok().map(|clip| (*clip).clone());
+        let painted = world.get::<&Painted>(entity);
+        painted.map_or(Self::Clear, |painted| Self::Painted((*painted).clone(), clip))
+    }
+
+    /// Fills in α_V of a brick, which comes zeroed.
+    fn opacity(&self, grid: &Grid, place: Place, made: &mut [f32; VOXELS]) {
+        match self {
+            Self::Made(opacity, _) => {
+                made.clone_from_slice(opacity.brick(place.brick).unwrap_or(&[0.0; VOXELS]));
+            }
+            Self::Painted(painted, clip) => {
+                paint(painted, clip.as_ref(), grid, place, |at, [_, _, _, alpha]| made[at] = alpha);
+            }
+            Self::Clear => {}
+        }
+    }
+
+    /// Fills in one of the colours of a brick, which comes zeroed.
+    fn color(&self, grid: &Grid, place: Place, channel: Channel, made: &mut [[f32; 3]; VOXELS]) {
+        match self {
+            Self::Made(_, colors) => {
+                if let Some(brick) = channel.of(colors).and_then(|bricks| bricks.brick(place.brick))
+                {
+                    *made = *brick;
+                }
+            }
+            Self::Painted(painted, clip) if channel == Channel::Base => {
+                paint(painted, clip.as_ref(), grid, place, |at, [r, g, b, _]| made[at] = [r, g, b]);
+            }
+            Self::Painted(..) | Self::Clear => {}
+        }
+    }
+}
+
+/// Tells the straight colour and opacity of every voxel of a brick of a painted volume.
+fn paint(
+    painted: &Painted,
+    clip: Option<&Clip>,
+    grid: &Grid,
+    place: Place,
+    mut tell: impl FnMut(usize, [f32; 4]),
+) {
+    let painting = Painting::new(painted, grid, clip);
+    let mut row = [Vec4::ZERO; EDGE];
+    for z in 0..place.extent[2] {
+        for y in 0..place.extent[1] {
+            let row = &mut row[..place.extent[0]];
+            row.fill(Vec4::ZERO);
+            painting.row([place.first[0], place.first[1] + y, place.first[2] + z], row);
+            for (x, voxel) in row.iter().enumerate() {
+                tell((z * EDGE + y) * EDGE + x, voxel.to_array());
+            }
+        }
+    }
+}
+
+impl Polygon {
+    /// Every scan-converted polygon, in the order of the scene.
+    fn all(world: &World) -> Vec<Self> {
+        let mut query = world.query::<(&Coverage, &Voxelize, &Surface, &Faces, Option<&Order>)>();
+        let mut all: Vec<_> = query.iter().collect();
+        all.sort_by_key(|(.., order)| order.copied());
+        let polygon = |(coverage, voxelize, surface, faces, _): (
+            &Coverage,
+            &Voxelize,
+            &Surface,
+            &Faces,
+            _,
+        )| Self {
+            coverage: coverage.0.clone(),
+            voxelize: voxelize.clone(),
+            surface: surface.clone(),
+            faces: faces.clone(),
+        };
+        all.into_iter().map(polygon).collect()
+    }
+
+    /// α_G of a voxel where the polygon is wholly there: the least over the faces' directions in the grid.
+    fn peak(&self, grid: &Grid, unit: f64) -> f32 {
+        let flats: Vec<Flat> =
+            self.faces.0.par_iter().filter_map(|face| Flat::new(face, grid)).collect();
+        let ball = Ball::stated(&self.surface, &self.voxelize, unit, grid, &flats);
+        flats.iter().map(|flat| ball.peak(flat.layer)).fold(1.0, f64::min) as f32
+    }
+}
+
+impl Channel {
+    fn of(self, colors: &LitColors) -> Option<&Bricks<[f32; 3]>> {
+        match self {
+            Self::Base => Some(&colors.base),
+            Self::Shadowed(light) => colors.shadowed.get(light),
+            Self::Ambient => colors.ambient.as_ref(),
+        }
+    }
+}
+
+impl Inputs {
+    fn composite(&self) -> Layer {
+        let peaks: Vec<f32> = self.polygons.iter().map(|p| p.peak(&self.grid, self.unit)).collect();
+        let opacity = Bricks::make(self.grid.size, |place, alpha| {
+            self.volume.opacity(&self.grid, place, alpha);
+            self.matte(&peaks, place, alpha, |_, _, _, _| {});
+            alpha.iter().any(|&alpha| alpha > 0.0)
+        });
+        let layers = || self.polygons.iter().map(|polygon| &polygon.coverage.colors);
+        let apart = layers().any(|colors| colors.ambient.is_some());
+        let bricks = |channel| self.color(&peaks, &opacity, channel);
+        let lights = layers().map(|colors| colors.shadowed.len()).max().unwrap_or(0);
+        let base = bricks(Channel::Base);
+        let shadowed = (0..lights).map(|light| bricks(Channel::Shadowed(light))).collect();
+        let ambient = apart.then(|| bricks(Channel::Ambient));
+        Layer { opacity, colors: LitColors { base, shadowed, ambient } }
+    }
+
+    /// One of the composite's colours. Bricks in which it is black are kept of `base` alone.
+    fn color(&self, peaks: &[f32], opacity: &Bricks<f32>, channel: Channel) -> Bricks<[f32; 3]> {
+        Bricks::make(self.grid.size, |place, made| {
+            if opacity.brick(place.brick).is_none() {
+                return false;
+            }
+            let mut alpha = [0.0; VOXELS];
+            self.volume.opacity(&self.grid, place, &mut alpha);
+            self.volume.color(&self.grid, place, channel, made);
+            self.matte(peaks, place, &mut alpha, |colors, at, parts, whole| {
+                let of_polygon = channel.of(colors).and_then(|bricks| bricks.brick(place.brick));
+                let of_polygon = of_polygon.map_or(Vec3::ZERO, |brick| Vec3::from(brick[at]));
+                let part = if whole > 0.0 { parts[0] / whole } else { 0.0 };
+                let mixed = Vec3::from(made[at]).lerp(of_polygon, part);
+                made[at] = if whole > 0.0 { mixed.to_array() } else { [0.0; 3] };
+            });
+            channel == Channel::Base || made.iter().any(|color| *color != [0.0; 3])
+        })
+    }
+
+    /// Mattes every polygon in turn with what there is of a brick, from α_V to α_C; tells of every voxel that changes.
+    fn matte(
+        &self,
+        peaks: &[f32],
+        place: Place,
+        alpha: &mut [f32; VOXELS],
+        mut tell: impl FnMut(&LitColors, usize, [f32; 2], f32),
+    ) {
+        for (polygon, peak) in self.polygons.iter().zip(peaks) {
+            let Some(covered) = polygon.coverage.opacity.brick(place.brick) else { continue };
+            for (at, &covered) in covered.iter().enumerate().filter(|(_, covered)| **covered > 0.0)
+            {
+                let there = footprint(covered, *peak);
+                let parts = weights(polygon.voxelize.matte, covered, alpha[at], there);
+                alpha[at] = (parts[0] + parts[1]).min(1.0);
+                tell(&polygon.coverage.colors, at, parts, parts[0] + parts[1]);
+            }
+        }
+    }
+}

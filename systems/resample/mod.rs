@@ -1,0 +1,231 @@
+//! Interpolation and resampling: the array of sample colours becomes the picture (paper §6).
+//!
+//! A colour between positions is the bilinear interpolation of the corners of the smallest region it lies in. A box
+//! one pixel wide over that is integrated exactly, quadrant by quadrant; other pixel filters sum over positions.
+
+use glam::{DVec4, Vec3, Vec4};
+use hecs::{Entity, World};
+use rayon::prelude::*;
+
+use crate::components::{Color, PixelFilter, Sampling, View};
+use crate::error::Error;
+use crate::products::{Frame, Samples};
+use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::view::picture::Picture;
+use crate::view::samples::{POSITIONS, SampleArray};
+
+/// Makes the picture of every view.
+pub struct Resample;
+
+impl System for Resample {
+    type Product = Frame;
+    const NAME: &'static str = "resample";
+    const READS: &'static [Kind] = &[Kind::View, Kind::Sampling, Kind::Samples];
+
+    fn run(world: &World, out: &mut Outbox<'_, Frame>) -> Result<(), Error> {
+        for (entity, view, sampling, samples) in
+            &mut world.query::<(Entity, &View, &Sampling, &Samples)>()
+        {
+            let inputs = (samples.clone(), sampling.pixel_filter, view.background);
+            out.derive(entity, inputs, |(samples, filter, background)| {
+                Ok(Frame(resample(&samples.0, *filter, *background)))
+            })?;
+        }
+        Ok(())
+    }
+
+    fn plan(world: &World) -> Plan {
+        let mut views = world.query::<(Entity, &View)>();
+        let bytes = |view: &View| view.size.iter().map(|&n| u64::from(n)).product::<u64>() * 16;
+        Plan {
+            makes: views.iter().map(|(entity, view)| (entity, bytes(view))).collect(),
+            why: "a view is stated",
+        }
+    }
+}
+
+fn resample(array: &SampleArray, filter: PixelFilter, background: Option<Color>) -> Picture {
+    let size = array.layout.size;
+    let mut pixels = vec![[0.0; 4]; size[0] * size[1]];
+    let lattice = Lattice::of(array);
+    let kernel = (filter != PixelFilter::Box).then(|| kernel(filter));
+    pixels.par_chunks_mut(size[0]).enumerate().for_each(|(y, row)| {
+        for (x, pixel) in row.iter_mut().enumerate() {
+            *pixel = match &kernel {
+                None => boxed(array, &lattice, x, y),
+                Some(kernel) => convolved(array, &lattice, kernel, x, y),
+            };
+        }
+    });
+    let picture = Picture { size, pixels: crate::volume::grid::Shared::new(pixels) };
+    background.map_or(picture.clone(), |color| picture.over(color.0))
+}
+
+/// C at every fourth position: cast, or interpolated where no ray was.
+struct Lattice {
+    across: usize,
+    colors: Vec<[f32; 4]>,
+}
+
+impl Lattice {
+    fn of(array: &SampleArray) -> Self {
+        let mut lattice =
+            Self { across: array.layout.blocks()[0], colors: array.colors.lattice.clone() };
+        let mut step = array.layout.coarsest / POSITIONS / 2;
+        while step > 0 {
+            lattice.fill(array, step);
+            step /= 2;
+        }
+        lattice
+    }
+
+    /// Interpolates where no ray was cast, half-way on the edges and in the middles of regions of twice `step`.
+    fn fill(&mut self, array: &SampleArray, step: usize) {
+        let down = self.colors.len() / self.across;
+        for y in (0..down).step_by(step) {
+            let odd_row = y / step % 2 == 1;
+            let first = if odd_row { 0 } else { step };
+            for x in (first..self.across).step_by(if odd_row { step } else { 2 * step }) {
+                if array.cast[y * self.across + x] & 1 == 0 {
+                    let color = match (x / step % 2 == 1, odd_row) {
+                        (true, false) => (self.color(x - step, y) + self.color(x + step, y)) * 0.5,
+                        (false, _) => (self.color(x, y - step) + self.color(x, y + step)) * 0.5,
+                        (true, true) => {
+                            let row = |y: usize| self.color(x - step, y) + self.color(x + step, y);
+                            (row(y - step) * 0.5 + row(y + step) * 0.5) * 0.5
+                        }
+                    };
+                    self.colors[y * self.across + x] = color.to_array();
+                }
+            }
+        }
+    }
+
+    /// The colour of position (4 x, 4 y).
+    fn color(&self, x: usize, y: usize) -> Vec4 {
+        Vec4::from_array(self.colors[y * self.across + x])
+    }
+}
+
+fn cast_color(array: &SampleArray, i: usize, j: usize) -> Vec4 {
+    Vec4::from_array(array.color(i, j))
+}
+
+/// The colour of a position of the lattice of `step` positions: cast there, or interpolated from the next coarser
+/// lattice (half-way on an edge of its regions, or in the middle of one).
+fn between(array: &SampleArray, i: usize, j: usize, step: usize) -> Vec4 {
+    if array.is_cast(i, j) || step >= array.layout.coarsest {
+        return cast_color(array, i, j);
+    }
+    let coarse = 2 * step;
+    let ends = |p: usize| if p.is_multiple_of(coarse) { [p, p] } else { [p - step, p + step] };
+    let (across, down) = (ends(i), ends(j));
+    let at = |x: usize, y: usize| between(array, x, y, coarse);
+    match (across[0] == across[1], down[0] == down[1]) {
+        (true, true) => at(i, j),
+        (false, true) => (at(across[0], j) + at(across[1], j)) * 0.5,
+        (true, false) => (at(i, down[0]) + at(i, down[1])) * 0.5,
+        (false, false) => {
+            let rows = down.map(|y| (at(across[0], y) + at(across[1], y)) * 0.5);
+            (rows[0] + rows[1]) * 0.5
+        }
+    }
+}
+
+/// The mean over a pixel: the mean of its four quadrants, each within one region of 4 × 4 positions.
+fn boxed(array: &SampleArray, lattice: &Lattice, x: usize, y: usize) -> [f32; 4] {
+    let first = array.layout.margin / POSITIONS;
+    let (x, y) = (x + first, y + first);
+    let row = array.layout.blocks()[0];
+    let blocks = [(y - 1) * row + x - 1, (y - 1) * row + x, y * row + x - 1, y * row + x];
+    if blocks.iter().all(|&block| array.splits[block] & 1 == 0) {
+        // All four quadrants at once: the weights are (1, 6, 1) / 8 along each axis.
+        let line = |y: usize| {
+            let first = y * lattice.across + x - 1;
+            let line = [0, 1, 2].map(|n| Vec4::from_array(lattice.colors[first + n]));
+            (line[0] + line[2]) * 0.125 + line[1] * 0.75
+        };
+        return ((line(y - 1) + line(y + 1)) * 0.125 + line(y) * 0.75).to_array();
+    }
+    let quadrant = |right: usize, below: usize| {
+        // The region left of or right of the pixel's middle, above or below it.
+        let (i, j) = (x - 1 + right, y - 1 + below);
+        let split = array.splits[j * row + i];
+        if split & 1 == 0 {
+            let at = |dx: usize, dy: usize| lattice.color(i + dx, j + dy);
+            // The pixel's middle is the corner away from (right, below).
+            let (cx, cy) = (1 - right, 1 - below);
+            return at(cx, cy) * 0.5625
+                + (at(1 - cx, cy) + at(cx, 1 - cy)) * 0.1875
+                + at(1 - cx, 1 - cy) * 0.0625;
+        }
+        let (child_x, child_y) = (1 - right, 1 - below);
+        let child = [i * POSITIONS + 2 * child_x, j * POSITIONS + 2 * child_y];
+        let fine = split >> (1 + 2 * child_y + child_x) & 1 == 1;
+        child_mean(array, child, fine)
+    };
+    let sum = quadrant(0, 0) + quadrant(1, 0) + (quadrant(0, 1) + quadrant(1, 1));
+    (sum * 0.25).to_array()
+}
+
+/// The mean over a region of 2 × 2 positions, whose inner positions were cast too if it is `fine`.
+fn child_mean(array: &SampleArray, [i, j]: [usize; 2], fine: bool) -> Vec4 {
+    let at = |dx: usize, dy: usize| cast_color(array, i + dx, j + dy);
+    let corners = at(0, 0) + at(2, 0) + (at(0, 2) + at(2, 2));
+    if !fine {
+        return corners * 0.25;
+    }
+    let edges = at(1, 0) + at(0, 1) + (at(2, 1) + at(1, 2));
+    corners * 0.0625 + edges * 0.125 + at(1, 1) * 0.25
+}
+
+/// The colour of any position.
+fn anywhere(array: &SampleArray, lattice: &Lattice, i: usize, j: usize) -> Vec4 {
+    if array.is_cast(i, j) {
+        return cast_color(array, i, j);
+    }
+    let (x, y) = (i / POSITIONS, j / POSITIONS);
+    let (right, below) = ((i % POSITIONS) as f32 / 4.0, (j % POSITIONS) as f32 / 4.0);
+    let split = array.splits[y * array.layout.blocks()[0] + x];
+    if split & 1 == 1 {
+        return between(array, i, j, 1);
+    }
+    let next = |n: usize, part: f32| if part > 0.0 { n + 1 } else { n };
+    let row = |y: usize| lattice.color(x, y).lerp(lattice.color(next(x, right), y), right);
+    row(y).lerp(row(next(y, below)), below)
+}
+
+/// Weights of the positions `-reach ..= reach` around a pixel's middle along one axis; they sum to 1.
+fn kernel(filter: PixelFilter) -> Vec<f64> {
+    let reach = filter.reach() as i32;
+    let weights: Vec<f64> =
+        (-reach..=reach).map(|p| f64::from(filter.weight(p as f32 / POSITIONS as f32))).collect();
+    let sum: f64 = weights.iter().sum();
+    weights.iter().map(|w| w / sum).collect()
+}
+
+/// The sum over positions, in 64 bits: what is constant stays so to the last bit.
+fn convolved(
+    array: &SampleArray,
+    lattice: &Lattice,
+    kernel: &[f64],
+    x: usize,
+    y: usize,
+) -> [f32; 4] {
+    let reach = kernel.len() / 2;
+    let first = |pixel: usize| pixel * POSITIONS + array.layout.margin - reach;
+    let (mut sum, mut excess) = (DVec4::ZERO, 0.0_f32);
+    for (dy, wy) in kernel.iter().enumerate() {
+        for (dx, wx) in kernel.iter().enumerate().filter(|(_, w)| **w != 0.0) {
+            let color = anywhere(array, lattice, first(x) + dx, first(y) + dy);
+            excess = excess.max(color.max_element() - color.w);
+            sum += color.as_dvec4() * (wx * wy);
+        }
+    }
+    // Mitchell's filter has negative lobes: what they leave stays an opacity, and a colour within it unless there is one
+    // brighter than white around.
+    let sum = sum.as_vec4();
+    let alpha = sum.w.clamp(0.0, 1.0);
+    let most = if excess > 1e-6 { f32::INFINITY } else { alpha };
+    sum.truncate().clamp(Vec3::ZERO, Vec3::splat(most)).extend(alpha).to_array()
+}

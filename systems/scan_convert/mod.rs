@@ -1,0 +1,163 @@
+//! 3D scan-conversion of polygons with analytic anti-aliasing: shaded, filtered, sampled (paper §3, figure 4).
+
+use glam::{DVec3, Vec3};
+use hecs::{Entity, World};
+use rayon::prelude::*;
+
+use crate::components::{CastsShadow, Matte, Name, Surface, Voxelize};
+use crate::error::Error;
+use crate::light::observer;
+use crate::light::shading::{Lamps, Reflectance};
+use crate::polygon::coverage::ball::REACH;
+use crate::polygon::coverage::{Ball, Covered, Flat};
+use crate::polygon::face::{Face, Faces};
+use crate::products::{Coverage, Layer, LitColors};
+use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::volume::bricks::{Bricks, VOXELS};
+use crate::volume::grid::Grid;
+use crate::volume::seen;
+
+/// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the scene's volume; and where a light
+/// casts shadows, that of the hybrid tracer's polygons too: they cast theirs by it.
+pub struct ScanConvert;
+
+/// What a coverage is made from.
+#[derive(Clone, PartialEq)]
+struct Inputs {
+    faces: Faces,
+    surface: Surface,
+    /// How; its operator is not looked at, and always the default.
+    voxelize: Voxelize,
+    grid: Grid,
+    unit: f64,
+    lamps: Lamps,
+    /// Whether ambient light is kept apart, for a depth cue.
+    ambient_apart: bool,
+    /// Whether it is there for its shadow alone, and needs no colour.
+    colorless: bool,
+}
+
+impl System for ScanConvert {
+    type Product = Coverage;
+    const NAME: &'static str = "scan_convert";
+    const READS: &'static [Kind] = &[
+        Kind::Name,
+        Kind::Order,
+        Kind::Faces,
+        Kind::Surface,
+        Kind::Voxelize,
+        Kind::Grid,
+        Kind::OpacityUnit,
+        Kind::Light,
+        Kind::CastsShadow,
+        Kind::Shaft,
+        Kind::View,
+        Kind::DepthCue,
+    ];
+
+    fn run(world: &World, out: &mut Outbox<'_, Coverage>) -> Result<(), Error> {
+        let (volume, shadows) = (seen::first(world), casts_shadows(world));
+        let ambient_apart = observer::is_cued(world);
+        let mut query =
+            world.query::<(Entity, &Faces, &Surface, Option<&Voxelize>, Option<&Name>)>();
+        for (entity, faces, surface, voxelize, name) in &mut query {
+            out.watch().check()?;
+            let name = name.map_or("polygon", |name| &name.0);
+            let Some((_, grid, unit)) = volume.filter(|_| voxelize.is_some() || shadows) else {
+                if voxelize.is_none() {
+                    continue;
+                }
+                let problem = "`voxelize` puts it into a volume and the scene has none; state a `volume` or take `voxelize` off";
+                return Err(Error::entity(name, problem));
+            };
+            let colorless = voxelize.is_none();
+            let how = Reflectance::from(surface);
+            let lamps = if colorless { Lamps::default() } else { observer::lamps(world, &how) };
+            // Another operator makes no other coverage.
+            let voxelize = Voxelize {
+                matte: Matte::default(),
+                calibrated: voxelize.is_none_or(|voxelize| voxelize.calibrated),
+            };
+            let (faces, surface) = (faces.clone(), surface.clone());
+            let inputs =
+                Inputs { faces, surface, voxelize, grid, unit, lamps, ambient_apart, colorless };
+            out.derive(entity, inputs, |inputs| {
+                let _inside = tracing::trace_span!("polygon", name).entered();
+                inputs.convert().map_err(|problem| Error::entity(name, problem))
+            })?;
+        }
+        Ok(())
+    }
+
+    fn plan(world: &World) -> Plan {
+        let Some((_, grid, _)) = seen::first(world) else {
+            return Plan::absent("no volume to scan-convert polygons into");
+        };
+        let (apart, shadows) = (usize::from(observer::is_cued(world)), casts_shadows(world));
+        let colors = 1 + apart + Lamps::of(world, DVec3::ZERO).shadowed.len();
+        let brick = (VOXELS * (size_of::<f32>() + colors * size_of::<[f32; 3]>())) as u64;
+        let table = grid.size.iter().map(|n| n.div_ceil(8) as u64).product::<u64>();
+        let mut query = world.query::<(Entity, &Faces, Option<&Voxelize>)>().with::<&Surface>();
+        let makes: Vec<_> = query
+            .iter()
+            .filter(|(_, _, voxelize)| voxelize.is_some() || shadows)
+            .map(|(entity, faces, _)| {
+                let flats = faces.0.par_iter().filter_map(|face| Flat::new(face, &grid));
+                // A brick near several faces is stored once.
+                let bricks =
+                    flats.map(|flat| flat.bricks(REACH, grid.size).len() as u64).sum::<u64>();
+                (entity, bricks.min(table) * brick + table * 4 * (1 + colors as u64))
+            })
+            .collect();
+        if makes.is_empty() {
+            return Plan::absent("no polygon carries `voxelize` or casts a shadow");
+        }
+        Plan { makes, why: "a polygon carries `voxelize`, or casts a shadow into the volume" }
+    }
+}
+
+/// Whether some light casts shadows.
+fn casts_shadows(world: &World) -> bool {
+    world.query::<&CastsShadow>().iter().next().is_some()
+}
+
+impl Inputs {
+    fn convert(&self) -> Result<Coverage, String> {
+        let faces = &self.faces.0;
+        let flats: Option<Vec<Flat>> =
+            faces.par_iter().map(|face| Flat::new(face, &self.grid)).collect();
+        let flats = flats.ok_or(
+            "a vertex is more than 1e100 voxels away from the volume; state vertices in the world's units",
+        )?;
+        let ball = Ball::stated(&self.surface, &self.voxelize, self.unit, &self.grid, &flats);
+        let covered = Covered::new(faces, &flats, &ball, self.grid.size);
+        let (opacity, colors) = rayon::join(|| covered.opacity(), || self.colors(&covered));
+        Ok(Coverage(Layer { opacity, colors }))
+    }
+
+    /// The colours: directional lights shade a face alike all over, so it is shaded once.
+    fn colors(&self, covered: &Covered) -> LitColors {
+        if self.colorless {
+            let nothing = Bricks::make(self.grid.size, |_, _| false);
+            return LitColors { base: nothing, shadowed: Vec::new(), ambient: None };
+        }
+        let how = Reflectance::from(&self.surface);
+        let color = self.surface.color.0;
+        let ambient = color * how.ambient;
+        let bricks = |of_face: &(dyn Fn(Vec3) -> Vec3 + Sync)| {
+            let shade = |face: &Face| of_face(face.normal.as_vec3());
+            covered.colors(&self.faces.0.iter().map(shade).collect::<Vec<_>>())
+        };
+        let in_base = if self.ambient_apart { Vec3::ZERO } else { ambient };
+        let plain = &self.lamps.plain;
+        let base = bricks(&|normal| {
+            plain.iter().fold(in_base, |sum, lamp| sum + lamp.reflected(color, normal, &how))
+        });
+        let shadowed = &self.lamps.shadowed;
+        let shadowed = shadowed
+            .iter()
+            .map(|(_, lamp)| bricks(&|normal| lamp.reflected(color, normal, &how)))
+            .collect();
+        LitColors { base, shadowed, ambient: self.ambient_apart.then(|| bricks(&|_| ambient)) }
+    }
+}

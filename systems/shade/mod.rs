@@ -1,0 +1,151 @@
+//! `shade`: what every interesting voxel sends towards the observer, light by light (algorithm §3, Levoy 1988).
+
+use glam::{DVec3, Vec3};
+use hecs::{Entity, World};
+
+use crate::components::{CastsShadow, Classify, Light, Material, OpacityUnit};
+use crate::error::Error;
+use crate::light::observer;
+use crate::light::shading::{Lamp, Lamps, Reflectance};
+use crate::products::{Gradient, LitColors, Opacity};
+use crate::schedule::{Kind, Outbox, Plan, System, Watch};
+use crate::volume::bricks::{self, Bricks, EDGE};
+use crate::volume::classification::Classifier;
+use crate::volume::grid::Scalars;
+use crate::volume::seen::{self, Seen};
+
+/// Makes the [`LitColors`] of every volume that is classified.
+pub struct Shade;
+
+#[derive(PartialEq)]
+struct Inputs {
+    scalars: Scalars,
+    gradient: Gradient,
+    opacity: Opacity,
+    classify: Classify,
+    material: Material,
+    unit: OpacityUnit,
+    lamps: Lamps,
+    /// Whether ambient light is kept apart, for a depth cue.
+    apart: bool,
+}
+
+impl System for Shade {
+    type Product = LitColors;
+    const NAME: &'static str = "shade";
+    #[rustfmt::skip]
+    const READS: &'static [Kind] = &[
+        Kind::Scalars, Kind::Gradient, Kind::Opacity, Kind::Classify, Kind::Material, Kind::OpacityUnit,
+        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::Shaft, Kind::View, Kind::DepthCue,
+    ];
+
+    fn run(world: &World, out: &mut Outbox<'_, LitColors>) -> Result<(), Error> {
+        type Volume<'a> = (
+            Entity,
+            &'a Scalars,
+            &'a Gradient,
+            &'a Opacity,
+            &'a Classify,
+            &'a OpacityUnit,
+            Option<&'a Material>,
+        );
+        let watch = out.watch();
+        let apart = observer::is_cued(world);
+        for (entity, scalars, gradient, opacity, classify, unit, material) in
+            &mut world.query::<Volume>()
+        {
+            let material = material.cloned().unwrap_or_default();
+            let inputs = Inputs {
+                scalars: scalars.clone(),
+                gradient: gradient.clone(),
+                opacity: opacity.clone(),
+                classify: classify.clone(),
+                unit: *unit,
+                lamps: observer::lamps(world, &Reflectance::from(&material)),
+                material,
+                apart,
+            };
+            out.derive(entity, inputs, |inputs| {
+                let colors = inputs.shade(watch);
+                watch.check()?;
+                Ok(colors)
+            })?;
+        }
+        Ok(())
+    }
+
+    fn plan(world: &World) -> Plan {
+        let shadows = world.query::<(&Light, &CastsShadow)>().iter().count() as u64;
+        let arrays = 1 + shadows + u64::from(observer::is_cued(world));
+        let bytes = |v: &Seen| bricks::most_bytes::<[f32; 3]>(v.size).saturating_mul(arrays);
+        let makes: Vec<_> = seen::classified(world).iter().map(|v| (v.entity, bytes(v))).collect();
+        if makes.is_empty() {
+            return Plan::absent("no volume of scalars states `classify`");
+        }
+        Plan { makes, why: "a volume that is classified is shaded by the lights of the scene" }
+    }
+}
+
+impl Inputs {
+    fn shade(&self, watch: &Watch) -> LitColors {
+        let classifier = Classifier::new(&self.classify, &self.material, self.unit.0);
+        let how = Reflectance::from(&self.material);
+        let colors = |lamps: &[&Lamp], ambient: f32| {
+            self.per_voxel(&classifier, watch, |color, normal| {
+                let reflected = lamps.iter().map(|lamp| lamp.reflected(color, normal, &how));
+                color * ambient + reflected.sum::<Vec3>()
+            })
+        };
+        let plain: Vec<_> = self.lamps.plain.iter().collect();
+        LitColors {
+            base: colors(&plain, if self.apart { 0.0 } else { how.ambient }),
+            shadowed: self.lamps.shadowed.iter().map(|(_, lamp)| colors(&[lamp], 0.0)).collect(),
+            ambient: self.apart.then(|| colors(&[], how.ambient)),
+        }
+    }
+
+    /// `light(c_p, N)` at every interesting voxel; what is clear has no colour.
+    fn per_voxel(
+        &self,
+        classifier: &Classifier,
+        watch: &Watch,
+        light: impl Fn(Vec3, Vec3) -> Vec3 + Sync + Send,
+    ) -> Bricks<[f32; 3]> {
+        let opacity = &self.opacity.voxels;
+        let [nx, ny, _] = opacity.size();
+        opacity.map(|place, alpha, made| {
+            if watch.check().is_err() {
+                return;
+            }
+            let [x, y, z] = place.first;
+            for (at, _) in alpha.iter().enumerate().filter(|(_, alpha)| **alpha > 0.0) {
+                let [dx, dy, dz] = [at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)];
+                let offset = ((z + dz) * ny + y + dy) * nx + x + dx;
+                let gradient = self.gradient.0[offset];
+                let color = classifier.color(self.scalars.value(offset), gradient);
+                made[at] = light(color, normal(gradient)).to_array();
+            }
+        })
+    }
+}
+
+/// N: the unit vector along which the scalars fall, out of what is dense; zero where they do not change.
+fn normal(gradient: [f32; 3]) -> Vec3 {
+    // In 64 bits no gradient of 32 bits is too short or too long to have a direction.
+    (-DVec3::from(gradient.map(f64::from))).normalize_or_zero().as_vec3()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_normal_has_length_one_however_steep_or_shallow_the_field() {
+        for length in [f32::MIN_POSITIVE / 1e6, 1e-20, 1.0, 1e30, f32::MAX / 2.0] {
+            let made = normal([0.0, length, 0.0]);
+            assert_eq!(made, Vec3::NEG_Y, "{length}");
+            assert!((normal([length, length, -length]).length() - 1.0).abs() < 1e-6);
+        }
+        assert_eq!(normal([0.0; 3]), Vec3::ZERO);
+    }
+}
