@@ -8,8 +8,9 @@
 mod timed;
 mod way;
 
-use gelray::components::{CastsShadow, Sampling, TexturedBy};
+use gelray::components::{CastsShadow, Sampling};
 use gelray::measure::cost::{FRAME, paper_costs};
+use gelray::polygon::texture::TexturedBy;
 use gelray::scene::{EMBEDDED, Source};
 use gelray::schedule::Ran;
 use hecs::Entity;

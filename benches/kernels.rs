@@ -3,13 +3,14 @@
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use gelray::components::{TexelKind, View};
-use gelray::products::{Gradient, LitColors, Opacity, Pyramid};
 use gelray::scene::{Source, load};
 use gelray::schedule::{Made, Product, Schedule, Watch};
 use gelray::systems::JOBS;
 use gelray::view::composite::thicken;
-use gelray::volume::gel::{CELLS, Gel};
-use gelray::{products, with_texels};
+use gelray::volume::gel::{CELLS, GelBricks};
+use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::pyramid::Pyramid;
+use gelray::with_texels;
 use glam::{Vec3, Vec4};
 use hecs::{Entity, World};
 
@@ -28,7 +29,7 @@ fn sample(bencher: Bencher, kind: TexelKind) {
             *texel = Vec4::splat(value(x + i + 9 * y + 81 * z));
         }
     };
-    let gel = Gel::make(kind, [9; 3], |_| true, fill);
+    let gel = GelBricks::make(kind, [9; 3], |_| true, fill);
     let places: Vec<_> = (0..4096)
         .map(|i| ([i % CELLS, i / 3 % CELLS, i / 7 % CELLS], Vec3::new(value(i), 0.3, 0.6)))
         .collect();
@@ -108,7 +109,7 @@ fn shade(bencher: Bencher) {
 
 #[divan::bench]
 fn relight(bencher: Bencher) {
-    stage::<products::Gel>(bencher, "relight");
+    stage::<gelray::volume::gel::Gel>(bencher, "relight");
 }
 
 #[divan::bench]

@@ -12,8 +12,8 @@ mod timed;
 use gelray::components::{Sampling, TexelKind};
 use gelray::measure::cost::FRAME;
 use gelray::measure::error::compare;
-use gelray::products::Frame;
 use gelray::scene::Source;
+use gelray::view::picture::Frame;
 use gelray::view::picture::Picture;
 use timed::{Setting, Spread, is_quick, on_threads};
 

@@ -2,8 +2,8 @@
 
 use gelray::components::{Material, Sampling, Surface};
 use gelray::measure::cost::FRAME;
-use gelray::products::Samples;
 use gelray::scene::Source;
+use gelray::view::samples::Samples;
 
 use crate::timed::{Setting, Spread, is_quick};
 

@@ -86,9 +86,9 @@ pub mod light;
 pub mod measure;
 pub mod phantom;
 pub mod polygon;
-pub mod products;
 pub mod scene;
 pub mod schedule;
+pub mod shared;
 #[path = "../systems/mod.rs"]
 pub mod systems;
 pub mod view;

@@ -1,28 +1,26 @@
-//! The systems: a stage of the paper's figures 1, 4 and 5 per file, and the one table of jobs.
-
-pub mod cast;
-pub mod classify;
-pub mod gradient;
-pub mod light_sweep;
-pub mod matte;
-pub mod pyramid;
-pub mod relight;
-pub mod resample;
-pub mod scan_convert;
-pub mod shade;
+//! The systems: a stage of the paper's figures 1, 4 and 5 per folder, and the one table of jobs.
 
 use crate::schedule::Job;
 
-/// Every job, in any order: the schedule derives it.
-pub static JOBS: &[Job] = &[
-    Job::of::<gradient::TakeGradient>(),
-    Job::of::<classify::Classify>(),
-    Job::of::<shade::Shade>(),
-    Job::of::<scan_convert::ScanConvert>(),
-    Job::of::<matte::Matte>(),
-    Job::of::<light_sweep::LightSweep>(),
-    Job::of::<relight::Relight>(),
-    Job::of::<pyramid::StackPyramid>(),
-    Job::of::<cast::Cast>(),
-    Job::of::<resample::Resample>(),
-];
+/// Declares the stages and their jobs: a line is a folder and the system in it.
+macro_rules! stages {
+    ($($stage:ident :: $system:ident,)*) => {
+        $(pub mod $stage;)*
+
+        /// Every job, in any order: the schedule derives it.
+        pub static JOBS: &[Job] = &[$(Job::of::<$stage::$system>()),*];
+    };
+}
+
+stages! {
+    gradient::TakeGradient,
+    classify::Classify,
+    shade::Shade,
+    scan_convert::ScanConvert,
+    matte::Matte,
+    light_sweep::LightSweep,
+    relight::Relight,
+    pyramid::StackPyramid,
+    cast::Cast,
+    resample::Resample,
+}

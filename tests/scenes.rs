@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use gelray::components::View;
 use gelray::formats::pictures::encoded::to_bytes;
 use gelray::formats::pictures::{read_picture, write_picture};
-use gelray::products::Frame;
 use gelray::scene::{EMBEDDED, Source, load};
 use gelray::schedule::{Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::view::picture::Frame;
 use gelray::view::picture::Picture;
 
 /// The longest side of a golden, in pixels.

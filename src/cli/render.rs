@@ -5,11 +5,12 @@ use std::time::Instant;
 
 use gelray::Error;
 use gelray::formats::pictures::{write_picture, write_ray_map};
-use gelray::products::{Frame, Samples};
 use gelray::scene::{Scene, Source};
 use gelray::schedule::{Ran, Schedule};
 use gelray::systems::JOBS;
+use gelray::view::picture::Frame;
 use gelray::view::samples::POSITIONS;
+use gelray::view::samples::Samples;
 use hecs::World;
 
 use super::failure::{Failure, tell};

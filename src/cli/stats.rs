@@ -1,9 +1,12 @@
 //! `--stats`: counts, bytes and seconds of a render, under keys that scripts of others depend on.
 
-use gelray::products::{Gel, LightStrength, Opacity, Pyramid};
+use gelray::light::strength::LightStrength;
 use gelray::schedule::Ran;
 use gelray::view::samples::Counts;
+use gelray::volume::gel::Gel;
 use gelray::volume::grid::{Painted, Scalars};
+use gelray::volume::layer::Opacity;
+use gelray::volume::pyramid::Pyramid;
 use hecs::World;
 use serde::Serialize;
 
@@ -55,7 +58,7 @@ impl Bytes {
     /// The bytes of what a world carries.
     pub fn of(world: &World) -> Self {
         let gel = |gel: &Gel| {
-            gel.lit.bytes() + gel.ambient.as_ref().map_or(0, gelray::volume::gel::Gel::bytes)
+            gel.lit.bytes() + gel.ambient.as_ref().map_or(0, gelray::volume::gel::GelBricks::bytes)
         };
         Self {
             scalars: voxels(world),

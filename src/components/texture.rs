@@ -1,10 +1,7 @@
 //! `texture` and its two uses: `textured` on a polygon (paper §5) and `projects` on a light (paper §4).
 
-use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::view::picture::Picture;
 
 /// An image that polygons and lights may name: exactly one of `file` or `formula`.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
@@ -42,17 +39,6 @@ pub struct Textured {
     /// How a pixel's footprint is averaged over it.
     #[serde(default)]
     pub filter: TextureFilter,
-}
-
-/// `textured`, resolved: the picture itself and the corners that it is laid between.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TexturedBy {
-    /// As stated.
-    pub textured: Textured,
-    /// The texture, ready for lookups.
-    pub texture: crate::polygon::texture::Texture,
-    /// World points of the texture's top left, top right and bottom left corners; never on one line.
-    pub corners: [DVec3; 3],
 }
 
 /// What lies outside a texture.
@@ -102,19 +88,6 @@ pub struct Projects {
     /// What lies outside the texture: `vanish` is no light.
     #[serde(default)]
     pub wrap: Wrap,
-}
-
-/// `projects`, resolved: the picture itself and where it lies.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ProjectedBy {
-    /// As stated.
-    pub projects: Projects,
-    /// The slide's texels.
-    pub picture: Picture,
-    /// The world point that the middle of the texture falls on.
-    pub center: DVec3,
-    /// The direction that the texture's top points to, of any length above 0; may lie along the light.
-    pub up: DVec3,
 }
 
 fn once() -> [f64; 2] {

@@ -4,7 +4,7 @@ use bytemuck::Pod;
 
 use super::stream::Stream;
 use super::{Painted, Scalars, Voxels};
-use crate::volume::grid::Shared;
+use crate::shared::Shared;
 
 /// The type of a file's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

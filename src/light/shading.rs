@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
 use crate::components::{CastsShadow, Light, Material, Order, Shaft, Surface, Toward};
+use crate::view::observer;
 
 /// How something answers light: the coefficients of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,6 +115,14 @@ pub fn toward(light: &Light, observer: DVec3) -> DVec3 {
         Toward::Direction(direction) => DVec3::from(direction).normalize_or_zero(),
         Toward::Observer(_) => observer,
     }
+}
+
+/// The lights as they fall on something of this reflectance. Where the observer makes no difference he is no part of it:
+/// what is lit by them need not be shaded again for another view.
+#[must_use]
+pub fn lamps(world: &World, how: &Reflectance) -> Lamps {
+    let depends = depends_on_view(world, how);
+    Lamps::of(world, if depends { observer::direction(world) } else { observer::ANYWHERE })
 }
 
 /// Whether light on something of this reflectance depends on where the observer stands: then a turn of the view shades again.

@@ -108,7 +108,7 @@ impl Histogram {
 #[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
     use super::*;
-    use crate::volume::grid::Shared;
+    use crate::shared::Shared;
 
     #[test]
     fn every_voxel_is_counted_once() {

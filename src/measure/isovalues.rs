@@ -184,7 +184,7 @@ mod tests {
     use super::*;
     use crate::formats::Voxels;
     use crate::phantom::{ball, phantom};
-    use crate::volume::grid::Shared;
+    use crate::shared::Shared;
 
     fn of(values: Vec<f32>) -> Vec<f32> {
         suggested_isovalues(&Scalars::F32(Shared::new(values)))

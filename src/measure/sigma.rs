@@ -47,7 +47,7 @@ pub fn sigma(scalars: &Scalars) -> Option<Sigma> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::volume::grid::Shared;
+    use crate::shared::Shared;
 
     #[test]
     #[allow(clippy::float_cmp, reason = "these are exact")]

@@ -1,5 +1,6 @@
 //! Volumes made by formula: the same bits on every machine.
 
+mod choice;
 mod head;
 mod molecule;
 mod shapes;
@@ -8,6 +9,7 @@ mod solid;
 mod textures;
 
 use crate::formats::Loaded;
+use choice::choose;
 pub use simple::ball;
 pub use textures::texture;
 
@@ -33,15 +35,6 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// The error for an unknown name is a sentence that lists the names.
 pub fn phantom(name: &str) -> Result<Loaded, String> {
     choose(&PHANTOMS, name, "phantom").map(|make| make())
-}
-
-/// The entry of a table called `name`, or a sentence that lists the names of its `kind`.
-fn choose<T: Copy>(table: &[(&str, T)], name: &str, kind: &str) -> Result<T, String> {
-    let found = table.iter().find(|(known, _)| *known == name);
-    found.map(|(_, made)| *made).ok_or_else(|| {
-        let known: Vec<_> = table.iter().map(|(known, _)| format!("`{known}`")).collect();
-        format!("there is no {kind} `{name}`; choose one of {}", known.join(", "))
-    })
 }
 
 #[cfg(test)]

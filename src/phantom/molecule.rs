@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::simple::centred;
 use crate::formats::Loaded;
-use crate::volume::grid::{Scalars, Shared};
+use crate::shared::Shared;
+use crate::volume::grid::Scalars;
 
 const SIDE: usize = 96;
 const SPACING: f32 = 0.42;

@@ -1,7 +1,8 @@
 //! The least volumes that show something: a ball, a slab and a ramp of gel, each 64 voxels a side.
 
 use crate::formats::{Loaded, Voxels};
-use crate::volume::grid::{Grid, Scalars, Shared};
+use crate::shared::Shared;
+use crate::volume::grid::{Grid, Scalars};
 
 /// Wraps scalars on a grid of `spacing` centred on the world's origin.
 pub fn centred(size: [usize; 3], spacing: [f64; 3], scalars: Scalars) -> Loaded {

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::choose;
+use super::choice::choose;
 use crate::view::picture::Picture;
 
 /// Texels on each side.

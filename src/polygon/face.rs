@@ -72,37 +72,6 @@ fn doubled_area(outline: &[DVec3], center: DVec3) -> DVec3 {
     outline.iter().zip(next).map(|(p, q)| (*p - center).cross(*q - center)).sum()
 }
 
-/// The bounding box of everything in a scene: the domain of its volume and the vertices of its polygons. World units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
-    /// The corner of least coordinates.
-    pub low: DVec3,
-    /// The corner of greatest coordinates.
-    pub high: DVec3,
-}
-
-impl Extent {
-    /// The bounding box of some points; `None` for no points.
-    pub fn of(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
-        points.into_iter().fold(None, |extent, p| {
-            let Self { low, high } = extent.unwrap_or(Self { low: p, high: p });
-            Some(Self { low: low.min(p), high: high.max(p) })
-        })
-    }
-
-    /// The middle of the box.
-    #[must_use]
-    pub fn center(&self) -> DVec3 {
-        (self.low + self.high) / 2.0
-    }
-
-    /// The radius of the box's bounding sphere.
-    #[must_use]
-    pub fn radius(&self) -> f64 {
-        self.low.distance(self.high) / 2.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

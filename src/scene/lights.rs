@@ -1,9 +1,9 @@
 //! The lights of a scene, and the head light of a scene that states none.
 
-use super::load::Loading;
+use super::loading::Loading;
 use crate::components::{CastsShadow, Color, Light, Observer, Projects, Shaft, Toward};
 use crate::error::Error;
-use crate::polygon::face::Extent;
+use crate::view::extent::Extent;
 use crate::volume::grid::Painted;
 
 /// Checks the falloff of shadows over the scene, and adds a head light where something wants light and none is stated.

@@ -9,6 +9,7 @@ mod error;
 mod grammar;
 mod lights;
 mod load;
+mod loading;
 mod nearest;
 mod overrides;
 mod parse;
@@ -22,7 +23,6 @@ mod textures;
 mod view;
 mod volume;
 
-pub use error::SceneError;
 pub use load::{Scene, load};
 pub use source::{EMBEDDED, Source};
 pub use table::schema;

@@ -3,11 +3,12 @@
 use serde_json::Value as Schema;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
 
-use super::error::{SceneError, Text};
+use super::error::Text;
 use super::grammar::{child, items, keys, unknown_key};
 use super::nearest::{list, suggestion};
 use super::parse::{entity_names, root};
 use super::table::{COMPONENTS, Row};
+use crate::error::SceneError;
 
 /// The text after every override, in the order given. `file` is how sentences name the text.
 ///

@@ -7,11 +7,12 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::entity::{checked, names};
-use super::error::{Fault, SceneError, Text};
+use super::error::{Fault, Text};
 use super::grammar::span_at;
 use super::nearest::suggestion;
 use super::table::{COMPONENTS, Row};
 use crate::components::{Name, Order};
+use crate::error::SceneError;
 
 /// A scene as stated: entities with their components, and where in the text each was stated.
 pub(super) struct Stated<'t> {

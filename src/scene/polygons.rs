@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::load::Loading;
+use super::loading::Loading;
 use super::shape;
 use crate::components::{Mesh, Polygon, Surface, Voxelize};
 use crate::error::Error;

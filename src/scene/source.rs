@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::SceneError;
 use super::nearest::suggestion;
 use crate::error::Error;
+use crate::error::SceneError;
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
 pub static EMBEDDED: [(&str, &str); 18] = [

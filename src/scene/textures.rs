@@ -2,13 +2,15 @@
 
 use glam::DVec3;
 
-use super::load::Loading;
-use crate::components::{Polygon, ProjectedBy, Projects, Texture, Textured, TexturedBy, Voxelize};
+use super::loading::Loading;
+use crate::components::{Polygon, Projects, Texture, Textured, Voxelize};
 use crate::error::Error;
 use crate::formats::read_picture;
+use crate::light::strength::ProjectedBy;
 use crate::phantom;
-use crate::polygon::face::Extent;
 use crate::polygon::texture;
+use crate::polygon::texture::TexturedBy;
+use crate::view::extent::Extent;
 use crate::view::picture::Picture;
 use crate::volume::grid::Grid;
 

@@ -1,11 +1,12 @@
 //! The view of a scene, the default one where none is stated, and the extent of what it can see.
 
 use super::lights::falloff;
-use super::load::Loading;
+use super::loading::Loading;
 use crate::components::{DepthCue, Sampling, View};
 use crate::error::Error;
-use crate::polygon::face::{Extent, Faces};
-use crate::scene::SceneError;
+use crate::error::SceneError;
+use crate::polygon::face::Faces;
+use crate::view::extent::Extent;
 use crate::volume::grid::Grid;
 
 /// The bounding box of the volume's domain and of all polygons; the error is that there is neither.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::load::Loading;
+use super::loading::Loading;
 use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume};

@@ -5,6 +5,7 @@
 //! inputs is kept, and only the rest is made.
 
 mod outbox;
+mod product;
 mod watch;
 
 use std::time::Instant;
@@ -12,26 +13,9 @@ use std::time::Instant;
 use hecs::{CommandBuffer, Entity, World};
 
 use crate::error::Error;
-pub use outbox::{Made, Outbox};
+pub use outbox::Outbox;
+pub use product::{Made, Product, ProductKey};
 pub use watch::Watch;
-
-/// Every component that a system may read: stated by a scene, or made by a system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the variants are the components' names")]
-#[rustfmt::skip]
-pub enum Kind {
-    // Stated.
-    Name, Order, Grid, Scalars, Painted, Classify, Material, Clip, OpacityUnit, Faces, Surface, Voxelize, Textured,
-    Light, CastsShadow, Projects, Shaft, View, Sampling, DepthCue, Extent,
-    // Made.
-    Gradient, Opacity, LitColors, Coverage, Composite, LightStrength, Gel, Pyramid, Samples, Frame,
-}
-
-/// What a system makes.
-pub trait Product: hecs::Component + Clone {
-    /// Its name among the components.
-    const KIND: Kind;
-}
 
 /// A stage of the paper's figures 1, 4 and 5.
 pub trait System {
@@ -39,8 +23,8 @@ pub trait System {
     type Product: Product;
     /// The name of its span and its line in the cost table.
     const NAME: &'static str;
-    /// The components that it reads.
-    const READS: &'static [Kind];
+    /// The products that it reads; what a scene states needs no mention. A test hides every other one from it.
+    const READS: &'static [ProductKey];
 
     /// Calls [`Outbox::derive`] once for every entity that is to carry the product.
     fn run(world: &World, out: &mut Outbox<'_, Self::Product>) -> Result<(), Error>;
@@ -81,9 +65,9 @@ pub struct Job {
     /// The system's name.
     pub name: &'static str,
     /// What it makes.
-    pub makes: Kind,
-    /// What it reads.
-    pub reads: &'static [Kind],
+    pub makes: ProductKey,
+    /// The products that it reads.
+    pub reads: &'static [ProductKey],
     /// What it would make of a world.
     pub plan: fn(&World) -> Plan,
     run: Run,
@@ -95,7 +79,7 @@ impl Job {
     pub const fn of<S: System>() -> Self {
         Self {
             name: S::NAME,
-            makes: S::Product::KIND,
+            makes: ProductKey::of::<S::Product>(),
             reads: S::READS,
             plan: S::plan,
             run: |world, watch, commands| {

@@ -1,25 +1,20 @@
 //! The outbox of a system: what it makes of the world, kept if it was made from the same inputs before.
 
-use std::any::Any;
+use std::collections::BTreeSet;
 use std::marker::PhantomData;
 
 use hecs::{CommandBuffer, Entity, World};
 
-use super::{Product, Watch};
+use super::product::{Made, Product, ProductKey};
+use super::watch::Watch;
 use crate::error::Error;
-
-/// Beside a product: what it was made from.
-pub struct Made<P> {
-    inputs: Box<dyn Any + Send + Sync>,
-    product: PhantomData<fn() -> P>,
-}
 
 /// Where a system puts what it makes; applied to the world when its wave is done.
 pub struct Outbox<'a, P> {
     world: &'a World,
     watch: &'a Watch,
     commands: &'a mut CommandBuffer,
-    derived: Vec<Entity>,
+    derived: BTreeSet<Entity>,
     made: u32,
     reused: u32,
     product: PhantomData<fn() -> P>,
@@ -28,19 +23,24 @@ pub struct Outbox<'a, P> {
 impl<'a, P: Product> Outbox<'a, P> {
     pub(super) fn new(world: &'a World, watch: &'a Watch, commands: &'a mut CommandBuffer) -> Self {
         let product = PhantomData;
-        Self { world, watch, commands, derived: Vec::new(), made: 0, reused: 0, product }
+        Self { world, watch, commands, derived: BTreeSet::new(), made: 0, reused: 0, product }
     }
 
     /// Lets `entity` carry what `make` makes of `inputs`: the product it has, if that was made of equal inputs.
     ///
-    /// An entity for which this is not called loses the product it had.
+    /// An entity for which this is not called loses the product it had; one for which it is called twice is an error.
     pub fn derive<I: PartialEq + Send + Sync + 'static>(
         &mut self,
         entity: Entity,
         inputs: I,
         make: impl FnOnce(&I) -> Result<P, Error>,
     ) -> Result<(), Error> {
-        self.derived.push(entity);
+        if !self.derived.insert(entity) {
+            let name = ProductKey::of::<P>().name();
+            return Err(Error::Schedule(format!(
+                "a system derives the {name} of one entity twice"
+            )));
+        }
         if self
             .world
             .get::<&Made<P>>(entity)

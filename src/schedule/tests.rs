@@ -8,16 +8,14 @@ struct Stated(u32);
 #[derive(Clone, PartialEq, Debug)]
 struct Doubled(u32);
 
-impl Product for Doubled {
-    const KIND: Kind = Kind::Gradient;
-}
+impl Product for Doubled {}
 
 struct Double;
 
 impl System for Double {
     type Product = Doubled;
     const NAME: &'static str = "double";
-    const READS: &'static [Kind] = &[Kind::Scalars];
+    const READS: &'static [ProductKey] = &[];
 
     fn run(world: &World, out: &mut Outbox<'_, Doubled>) -> Result<(), Error> {
         for (entity, stated) in &mut world.query::<(Entity, &Stated)>() {
@@ -31,16 +29,31 @@ impl System for Double {
     }
 }
 
-fn job(name: &'static str, makes: Kind, reads: &'static [Kind]) -> Job {
+fn job(name: &'static str, makes: ProductKey, reads: &'static [ProductKey]) -> Job {
     Job { name, makes, reads, ..Job::of::<Double>() }
 }
+
+/// Products that nothing makes.
+#[derive(Clone)]
+struct First;
+#[derive(Clone)]
+struct Second;
+#[derive(Clone)]
+struct Third;
+impl Product for First {}
+impl Product for Second {}
+impl Product for Third {}
+
+const FIRST: ProductKey = ProductKey::of::<First>();
+const SECOND: ProductKey = ProductKey::of::<Second>();
+const THIRD: ProductKey = ProductKey::of::<Third>();
 
 #[test]
 fn the_order_follows_from_who_makes_what() {
     let jobs = [
-        job("cast", Kind::Samples, &[Kind::Gel, Kind::View]),
-        job("relight", Kind::Gel, &[Kind::Opacity]),
-        job("classify", Kind::Opacity, &[Kind::Scalars]),
+        job("cast", THIRD, &[SECOND]),
+        job("relight", SECOND, &[FIRST]),
+        job("classify", FIRST, &[]),
     ];
     let schedule = Schedule::new(&jobs).unwrap();
     let names: Vec<_> = schedule.waves().iter().flatten().map(|job| job.name).collect();
@@ -49,10 +62,49 @@ fn the_order_follows_from_who_makes_what() {
 
 #[test]
 fn two_makers_and_a_cycle_are_refused() {
-    let twice = [job("a", Kind::Gel, &[]), job("b", Kind::Gel, &[])];
-    let cycle = [job("a", Kind::Gel, &[Kind::Opacity]), job("b", Kind::Opacity, &[Kind::Gel])];
-    assert!(Schedule::new(&twice).is_err_and(|e| e.to_string().contains("both make")));
+    let twice = [job("a", FIRST, &[]), job("b", FIRST, &[])];
+    let cycle = [job("a", FIRST, &[SECOND]), job("b", SECOND, &[FIRST])];
+    assert!(
+        Schedule::new(&twice).is_err_and(|e| e.to_string().contains("a and b both make First"))
+    );
     assert!(Schedule::new(&cycle).is_err_and(|e| e.to_string().contains("wait for each other")));
+}
+
+/// Derives every entity twice.
+struct Twice;
+
+impl System for Twice {
+    type Product = Doubled;
+    const NAME: &'static str = "twice";
+    const READS: &'static [ProductKey] = &[];
+
+    fn run(world: &World, out: &mut Outbox<'_, Doubled>) -> Result<(), Error> {
+        Double::run(world, out)?;
+        Double::run(world, out)
+    }
+
+    fn plan(_: &World) -> Plan {
+        Plan::absent("a test")
+    }
+}
+
+#[test]
+fn a_system_that_derives_an_entity_twice_is_refused() {
+    let schedule = Schedule::new(&[Job::of::<Twice>()]).unwrap();
+    let mut world = World::new();
+    world.spawn((Stated(4),));
+    let refused = schedule.run(&mut world, &Watch::default()).unwrap_err();
+    assert!(refused.to_string().contains("Doubled of one entity twice"), "{refused}");
+}
+
+#[test]
+fn a_product_that_is_taken_off_is_made_anew() {
+    let schedule = Schedule::new(&[Job::of::<Double>()]).unwrap();
+    let (mut world, watch) = (World::new(), Watch::default());
+    world.spawn((Stated(4),));
+    schedule.run(&mut world, &watch).unwrap();
+    ProductKey::of::<Doubled>().take_off(&mut world);
+    assert_eq!(schedule.run(&mut world, &watch).unwrap()[0].made, 1);
 }
 
 #[test]

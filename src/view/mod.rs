@@ -1,6 +1,9 @@
 //! Views: the camera and the walk of its rays, the samples on them, how they are composited, and the picture.
 
+pub mod camera;
 pub mod composite;
+pub mod extent;
+pub mod observer;
 pub mod picture;
 pub mod samples;
 pub mod walk;

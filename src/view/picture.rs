@@ -1,6 +1,7 @@
 //! Pictures in memory: what a view sees, what a texture holds, what `compare` compares.
 
-use crate::volume::grid::Shared;
+use crate::schedule::Product;
+use crate::shared::Shared;
 
 /// An image of linear, associated RGBA: row 0 is the top, x runs fastest, `size[0] · size[1]` texels.
 ///
@@ -38,3 +39,9 @@ impl Picture {
         Self { size: self.size, pixels: Shared::new(self.pixels.iter().map(over).collect()) }
     }
 }
+
+/// The picture of a view, linear associated RGBA.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame(pub Picture);
+
+impl Product for Frame {}

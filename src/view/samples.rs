@@ -1,5 +1,6 @@
 //! The array of sample colours of a view: 4 × 4 positions a pixel, where rays were cast, and what they saw (paper §6).
 
+use crate::schedule::Product;
 use std::sync::Arc;
 
 /// Positions along a pixel's side.
@@ -33,6 +34,8 @@ impl std::ops::AddAssign for Counts {
 /// The colours of a view's sample array. Shared by pointer, equality is identity.
 #[derive(Debug, Clone)]
 pub struct Samples(pub Arc<SampleArray>);
+
+impl Product for Samples {}
 
 impl PartialEq for Samples {
     fn eq(&self, other: &Self) -> bool {

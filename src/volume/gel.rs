@@ -10,6 +10,7 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::components::TexelKind;
+use crate::schedule::Product;
 
 /// Cells along one edge of a brick.
 pub const CELLS: usize = 8;
@@ -231,28 +232,39 @@ fn fill_brick<T: Texel>(
     texels
 }
 
+/// The coloured, semi-transparent gel that rays meet: c_T · α_C and α_C (equation 4).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gel {
+    /// Colour and opacity; the reflected part alone of the colour where `ambient` is apart.
+    pub lit: GelBricks,
+    /// The ambient part of the colour (and the opacity again), where a depth cue is stated.
+    pub ambient: Option<GelBricks>,
+}
+
+impl Product for Gel {}
+
 /// The gel, in the number type that the view's `sampling` states.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(missing_docs, reason = "the variants are the types")]
-pub enum Gel {
+pub enum GelBricks {
     F32(Texels<[f32; 4]>),
     U16(Texels<[u16; 4]>),
     U8(Texels<[u8; 4]>),
 }
 
-/// Runs an expression on the typed texels inside [`Gel`]: `with_texels!(gel, texels => expression)`.
+/// Runs an expression on the typed texels inside [`GelBricks`]: `with_texels!(gel, texels => expression)`.
 #[macro_export]
 macro_rules! with_texels {
     ($gel:expr, $texels:ident => $body:expr) => {
         match $gel {
-            $crate::volume::gel::Gel::F32($texels) => $body,
-            $crate::volume::gel::Gel::U16($texels) => $body,
-            $crate::volume::gel::Gel::U8($texels) => $body,
+            $crate::volume::gel::GelBricks::F32($texels) => $body,
+            $crate::volume::gel::GelBricks::U16($texels) => $body,
+            $crate::volume::gel::GelBricks::U8($texels) => $body,
         }
     };
 }
 
-impl Gel {
+impl GelBricks {
     /// [`Texels::make`] in the type of `kind`; in 32 bits where that is left open.
     pub fn make(
         kind: TexelKind,

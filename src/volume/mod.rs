@@ -5,7 +5,7 @@ pub mod classification;
 pub mod clipping;
 pub mod gel;
 pub mod grid;
+pub mod layer;
 pub mod painting;
 pub mod pyramid;
-pub mod relit;
 pub mod seen;

@@ -130,7 +130,7 @@ fn fill<T: Paint>(values: &[T], row: &mut [Vec4]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::volume::grid::Shared;
+    use crate::shared::Shared;
 
     fn grid() -> Grid {
         Grid::axis_aligned([17, 9, 9], [1.0; 3], [0.0; 3]).unwrap()

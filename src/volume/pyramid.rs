@@ -8,11 +8,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use crate::schedule::Product;
 use crate::volume::gel::{CELLS, EMPTY, Texel, Texels};
 
 /// What steps over empty gel. Shared by pointer, equality is identity.
 #[derive(Debug, Clone)]
 pub struct Pyramid(Arc<Levels>);
+
+impl Product for Pyramid {}
 
 #[derive(Debug)]
 struct Levels {

@@ -48,7 +48,7 @@ pub fn all(world: &World) -> Vec<Seen> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::volume::grid::Shared;
+    use crate::shared::Shared;
 
     #[test]
     fn scalars_are_seen_if_classified_and_paint_always() {

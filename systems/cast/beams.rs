@@ -7,8 +7,8 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use crate::view::camera::Camera;
 use crate::view::samples::{Layout, POSITIONS};
-use crate::view::walk::Camera;
 use crate::volume::gel::{CELLS, EMPTY, Texel, Texels};
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;

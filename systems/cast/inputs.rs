@@ -4,14 +4,18 @@ use hecs::{Entity, World};
 
 use super::shaft;
 use crate::components::{
-    DepthCue, Light, OpacityUnit, Order, ProjectedBy, Sampling, Shaft, Surface, TexturedBy, View,
-    Voxelize,
+    DepthCue, Light, OpacityUnit, Order, Sampling, Shaft, Surface, View, Voxelize,
 };
 use crate::light::shading::Lamps;
-use crate::polygon::face::{Extent, Faces};
-use crate::products::{Gel, LightStrength, Pyramid};
-use crate::view::walk::Camera;
+use crate::light::strength::LightStrength;
+use crate::light::strength::ProjectedBy;
+use crate::polygon::face::Faces;
+use crate::polygon::texture::TexturedBy;
+use crate::view::camera::Camera;
+use crate::view::extent::Extent;
+use crate::volume::gel::Gel;
 use crate::volume::grid::Grid;
+use crate::volume::pyramid::Pyramid;
 
 /// What the rays of a view meet.
 #[derive(PartialEq)]

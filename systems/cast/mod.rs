@@ -23,12 +23,14 @@ use hecs::{Entity, World};
 
 use crate::components::{DepthCue, Sampling, View};
 use crate::error::Error;
-use crate::polygon::face::Extent;
-use crate::products::{Pyramid, Samples};
-use crate::schedule::{Kind, Outbox, Plan, System, Watch};
-use crate::view::samples::{Counts, Layout, SampleArray};
-use crate::view::walk::{Camera, Walk};
-use crate::volume::gel::{Gel as GelBricks, Texel, Texels};
+use crate::light::strength::LightStrength;
+use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
+use crate::view::camera::Camera;
+use crate::view::extent::Extent;
+use crate::view::samples::{Counts, Layout, SampleArray, Samples};
+use crate::view::walk::Walk;
+use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
+use crate::volume::pyramid::Pyramid;
 use adaptive::{Aim, Caster, Ray, Refinement};
 use beams::{Beams, Occupied};
 use inputs::{Inputs, Medium};
@@ -44,12 +46,8 @@ pub struct Cast;
 impl System for Cast {
     type Product = Samples;
     const NAME: &'static str = "cast";
-    #[rustfmt::skip]
-    const READS: &'static [Kind] = &[
-        Kind::View, Kind::Sampling, Kind::Extent, Kind::DepthCue, Kind::Grid, Kind::OpacityUnit, Kind::Gel,
-        Kind::Pyramid, Kind::Faces, Kind::Surface, Kind::Voxelize, Kind::Textured, Kind::Order, Kind::Light,
-        Kind::CastsShadow, Kind::LightStrength, Kind::Shaft, Kind::Projects,
-    ];
+    const READS: &'static [ProductKey] =
+        &[ProductKey::of::<Gel>(), ProductKey::of::<Pyramid>(), ProductKey::of::<LightStrength>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
         let watch = out.watch();

@@ -14,10 +14,10 @@ use super::texture::Laid;
 use super::volume::Cue;
 use crate::components::Surface;
 use crate::light::shading::{Lamps, Reflectance};
+use crate::light::strength::LightStrength;
 use crate::polygon::face::Face;
-use crate::products::LightStrength;
+use crate::view::camera::Camera;
 use crate::view::samples::{Layout, POSITIONS};
-use crate::view::walk::Camera;
 
 /// How far outside the bounding box of a polygon a ray is sure to miss it, pixels.
 const OUTSIDE: f64 = 1e-6;

@@ -8,9 +8,9 @@ use glam::DVec3;
 use hecs::Entity;
 
 use crate::light::shading::{Lamp, Lamps};
+use crate::light::strength::LightStrength;
 use crate::light::strength::Shear;
-use crate::polygon::coverage::ball::REACH;
-use crate::products::LightStrength;
+use crate::polygon::coverage::REACH;
 use crate::volume::grid::Grid;
 
 /// The least cosine between a face's normal and a light that the way is stretched by: what light falls flatter than that

@@ -7,10 +7,11 @@
 
 use glam::{DVec3, Vec3, Vec4};
 
-use crate::components::{Light, ProjectedBy, Shaft};
+use crate::components::{Light, Shaft};
 use crate::light::shading::toward;
+use crate::light::strength::ProjectedBy;
 use crate::light::strength::{LightStrength, Slide};
-use crate::view::walk::Camera;
+use crate::view::camera::Camera;
 
 /// What a shaft is made of: the light and what shapes its beam.
 #[derive(Clone, PartialEq)]

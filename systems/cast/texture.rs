@@ -2,11 +2,12 @@
 
 use glam::{DVec3, Vec4};
 
-use crate::components::{Textured, TexturedBy};
+use crate::components::Textured;
 use crate::polygon::face::Face;
+use crate::polygon::texture::TexturedBy;
 use crate::polygon::texture::{Footprint, Mapping, Texture};
+use crate::view::camera::Camera;
 use crate::view::samples::POSITIONS;
-use crate::view::walk::Camera;
 
 /// A texture laid on a face and seen in a view.
 pub struct Laid {

@@ -6,12 +6,12 @@ use hecs::{Entity, World};
 
 use crate::components::{self, Clip, Material, OpacityUnit};
 use crate::error::Error;
-use crate::products::{Gradient, Opacity};
-use crate::schedule::{Kind, Outbox, Plan, System, Watch};
+use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::grid::{Grid, Scalar, Scalars};
+use crate::volume::layer::{Gradient, Opacity};
 use crate::volume::seen::{self, Seen};
 use crate::with_scalars;
 
@@ -31,9 +31,7 @@ struct Inputs {
 impl System for Classify {
     type Product = Opacity;
     const NAME: &'static str = "classify";
-    #[rustfmt::skip]
-    const READS: &'static [Kind] =
-        &[Kind::Scalars, Kind::Gradient, Kind::Grid, Kind::Classify, Kind::OpacityUnit, Kind::Clip];
+    const READS: &'static [ProductKey] = &[ProductKey::of::<Gradient>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Opacity>) -> Result<(), Error> {
         type Volume<'a> = (

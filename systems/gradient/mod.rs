@@ -9,9 +9,10 @@ use rayon::prelude::*;
 
 use crate::components::{Classify, OpacityUnit};
 use crate::error::Error;
-use crate::products::Gradient;
-use crate::schedule::{Kind, Outbox, Plan, System, Watch};
-use crate::volume::grid::{Grid, Scalar, Scalars, Shared};
+use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
+use crate::shared::Shared;
+use crate::volume::grid::{Grid, Scalar, Scalars};
+use crate::volume::layer::Gradient;
 use crate::volume::seen;
 use crate::with_scalars;
 
@@ -21,7 +22,7 @@ pub struct TakeGradient;
 impl System for TakeGradient {
     type Product = Gradient;
     const NAME: &'static str = "gradient";
-    const READS: &'static [Kind] = &[Kind::Scalars, Kind::Grid, Kind::Classify, Kind::OpacityUnit];
+    const READS: &'static [ProductKey] = &[];
 
     fn run(world: &World, out: &mut Outbox<'_, Gradient>) -> Result<(), Error> {
         let watch = out.watch();

@@ -3,12 +3,13 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Order, ProjectedBy, Shaft, Voxelize};
+use crate::components::{CastsShadow, Order, Shaft, Voxelize};
 use crate::error::Error;
+use crate::light::strength::ProjectedBy;
 use crate::polygon::face::Faces;
-use crate::products::{Composite, Coverage, Opacity};
 use crate::volume::bricks::Bricks;
 use crate::volume::grid::{Grid, Painted, Scalars};
+use crate::volume::layer::{Composite, Coverage, Opacity};
 
 /// What one light's strengths are made from. Nothing of a view, but for a light that stands at the observer.
 #[derive(PartialEq)]

@@ -15,15 +15,15 @@ use std::mem::size_of;
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Light, Name, OpacityUnit, ProjectedBy};
+use crate::components::{CastsShadow, Light, Name, OpacityUnit};
 use crate::error::Error;
-use crate::light::observer;
 use crate::light::shading::toward;
-use crate::light::strength::{Buffer, Falloff, Shear, Slide, quantize};
-use crate::products::LightStrength;
-use crate::schedule::{Kind, Outbox, Plan, System, Watch};
+use crate::light::strength::{Buffer, Falloff, LightStrength, ProjectedBy, Shear, Slide, quantize};
+use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
+use crate::view::observer;
 use crate::volume::bricks::most_bytes;
 use crate::volume::grid::Grid;
+use crate::volume::layer::{Composite, Coverage, Opacity};
 use casters::Casters;
 use columns::Columns;
 use inputs::{Inputs, hybrid_coverage, lit_volume, reads_buffer, stated_grid};
@@ -35,23 +35,8 @@ pub struct LightSweep;
 impl System for LightSweep {
     type Product = LightStrength;
     const NAME: &'static str = "light_sweep";
-    const READS: &'static [Kind] = &[
-        Kind::Name,
-        Kind::Order,
-        Kind::Grid,
-        Kind::Painted,
-        Kind::OpacityUnit,
-        Kind::Faces,
-        Kind::Voxelize,
-        Kind::Light,
-        Kind::CastsShadow,
-        Kind::Projects,
-        Kind::Shaft,
-        Kind::View,
-        Kind::Opacity,
-        Kind::Coverage,
-        Kind::Composite,
-    ];
+    const READS: &'static [ProductKey] =
+        &[ProductKey::of::<Opacity>(), ProductKey::of::<Coverage>(), ProductKey::of::<Composite>()];
 
     fn run(world: &World, out: &mut Outbox<'_, LightStrength>) -> Result<(), Error> {
         let Some((volume, grid, opacity)) = lit_volume(world) else {

@@ -1,22 +1,24 @@
 //! Volume matting: polygons' colours and opacities combined with the volume's to c_C and α_C, in the order of the scene
 //! (paper §3, figure 4).
 
+mod matting;
+
 use glam::{Vec3, Vec4};
 use hecs::{Entity, World};
 use rayon::prelude::*;
 
 use crate::components::{CastsShadow, Clip, Light, Order, Surface, Voxelize};
 use crate::error::Error;
-use crate::light::observer;
-use crate::polygon::coverage::matting::{footprint, weights};
 use crate::polygon::coverage::{Ball, Flat};
 use crate::polygon::face::Faces;
-use crate::products::{Composite, Coverage, Layer, LitColors, Opacity};
-use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::observer;
 use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
 use crate::volume::grid::{Grid, Painted};
+use crate::volume::layer::{Composite, Coverage, Layer, LitColors, Opacity};
 use crate::volume::painting::Painting;
 use crate::volume::seen;
+use matting::{footprint, weights};
 
 /// Makes the [`Composite`] of the scene's volume, only if some polygon is scan-converted into it.
 pub struct Matte;
@@ -60,19 +62,8 @@ enum Channel {
 impl System for Matte {
     type Product = Composite;
     const NAME: &'static str = "matte";
-    const READS: &'static [Kind] = &[
-        Kind::Order,
-        Kind::Grid,
-        Kind::OpacityUnit,
-        Kind::Opacity,
-        Kind::LitColors,
-        Kind::Painted,
-        Kind::Clip,
-        Kind::Coverage,
-        Kind::Faces,
-        Kind::Surface,
-        Kind::Voxelize,
-    ];
+    const READS: &'static [ProductKey] =
+        &[ProductKey::of::<Opacity>(), ProductKey::of::<LitColors>(), ProductKey::of::<Coverage>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Composite>) -> Result<(), Error> {
         let polygons = Polygon::all(world);

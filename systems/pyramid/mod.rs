@@ -4,10 +4,11 @@ use hecs::{Entity, World};
 
 use crate::components::Skip;
 use crate::error::Error;
-use crate::light::observer;
-use crate::products::{Gel, Pyramid};
-use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::observer;
 use crate::volume::gel::CELLS;
+use crate::volume::gel::Gel;
+use crate::volume::pyramid::Pyramid;
 use crate::volume::seen::{self, Seen};
 use crate::with_texels;
 
@@ -17,8 +18,7 @@ pub struct StackPyramid;
 impl System for StackPyramid {
     type Product = Pyramid;
     const NAME: &'static str = "pyramid";
-    #[rustfmt::skip]
-    const READS: &'static [Kind] = &[Kind::Gel, Kind::Order, Kind::View, Kind::Sampling];
+    const READS: &'static [ProductKey] = &[ProductKey::of::<Gel>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Pyramid>) -> Result<(), Error> {
         if observer::sampling(world).skip != Skip::Pyramid {

@@ -1,20 +1,25 @@
 //! `relight`: equation 4, `c_T = Σ c_i β_i`, and the associated gel `c_T · α` that rays meet.
 
+mod relit;
+
 use glam::Vec4;
 use hecs::{Entity, World};
 
 use crate::components::{Clip, TexelKind, Voxelize};
 use crate::error::Error;
-use crate::light::observer;
 use crate::light::shading::Lamps;
-use crate::products::{Composite, Gel, LightStrength, LitColors, Opacity};
-use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::light::strength::LightStrength;
+use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::observer;
 use crate::volume::bricks::Bricks;
-use crate::volume::gel::{self, Gel as GelBricks};
+use crate::volume::gel::Gel;
+use crate::volume::gel::{self, GelBricks};
 use crate::volume::grid::{Grid, Painted};
+use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
-use crate::volume::relit::Relit;
 use crate::volume::seen::{self, Seen};
+
+use relit::Relit;
 
 /// Makes the [`Gel`] of every volume.
 pub struct Relight;
@@ -37,10 +42,11 @@ enum Source {
 impl System for Relight {
     type Product = Gel;
     const NAME: &'static str = "relight";
-    #[rustfmt::skip]
-    const READS: &'static [Kind] = &[
-        Kind::Opacity, Kind::LitColors, Kind::Composite, Kind::Painted, Kind::Grid, Kind::Clip, Kind::LightStrength,
-        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::Shaft, Kind::View, Kind::Sampling,
+    const READS: &'static [ProductKey] = &[
+        ProductKey::of::<Opacity>(),
+        ProductKey::of::<LitColors>(),
+        ProductKey::of::<Composite>(),
+        ProductKey::of::<LightStrength>(),
     ];
 
     fn run(world: &World, out: &mut Outbox<'_, Gel>) -> Result<(), Error> {

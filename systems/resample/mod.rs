@@ -9,9 +9,10 @@ use rayon::prelude::*;
 
 use crate::components::{Color, PixelFilter, Sampling, View};
 use crate::error::Error;
-use crate::products::{Frame, Samples};
-use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::picture::Frame;
 use crate::view::picture::Picture;
+use crate::view::samples::Samples;
 use crate::view::samples::{POSITIONS, SampleArray};
 
 /// Makes the picture of every view.
@@ -20,7 +21,7 @@ pub struct Resample;
 impl System for Resample {
     type Product = Frame;
     const NAME: &'static str = "resample";
-    const READS: &'static [Kind] = &[Kind::View, Kind::Sampling, Kind::Samples];
+    const READS: &'static [ProductKey] = &[ProductKey::of::<Samples>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Frame>) -> Result<(), Error> {
         for (entity, view, sampling, samples) in
@@ -57,7 +58,7 @@ fn resample(array: &SampleArray, filter: PixelFilter, background: Option<Color>)
             };
         }
     });
-    let picture = Picture { size, pixels: crate::volume::grid::Shared::new(pixels) };
+    let picture = Picture { size, pixels: crate::shared::Shared::new(pixels) };
     background.map_or(picture.clone(), |color| picture.over(color.0))
 }
 

@@ -6,15 +6,15 @@ use rayon::prelude::*;
 
 use crate::components::{CastsShadow, Matte, Name, Surface, Voxelize};
 use crate::error::Error;
-use crate::light::observer;
-use crate::light::shading::{Lamps, Reflectance};
-use crate::polygon::coverage::ball::REACH;
+use crate::light::shading::{Lamps, Reflectance, lamps};
+use crate::polygon::coverage::REACH;
 use crate::polygon::coverage::{Ball, Covered, Flat};
 use crate::polygon::face::{Face, Faces};
-use crate::products::{Coverage, Layer, LitColors};
-use crate::schedule::{Kind, Outbox, Plan, System};
+use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::observer;
 use crate::volume::bricks::{Bricks, VOXELS};
 use crate::volume::grid::Grid;
+use crate::volume::layer::{Coverage, Layer, LitColors};
 use crate::volume::seen;
 
 /// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the scene's volume; and where a light
@@ -40,20 +40,7 @@ struct Inputs {
 impl System for ScanConvert {
     type Product = Coverage;
     const NAME: &'static str = "scan_convert";
-    const READS: &'static [Kind] = &[
-        Kind::Name,
-        Kind::Order,
-        Kind::Faces,
-        Kind::Surface,
-        Kind::Voxelize,
-        Kind::Grid,
-        Kind::OpacityUnit,
-        Kind::Light,
-        Kind::CastsShadow,
-        Kind::Shaft,
-        Kind::View,
-        Kind::DepthCue,
-    ];
+    const READS: &'static [ProductKey] = &[];
 
     fn run(world: &World, out: &mut Outbox<'_, Coverage>) -> Result<(), Error> {
         let (volume, shadows) = (seen::first(world), casts_shadows(world));
@@ -72,7 +59,7 @@ impl System for ScanConvert {
             };
             let colorless = voxelize.is_none();
             let how = Reflectance::from(surface);
-            let lamps = if colorless { Lamps::default() } else { observer::lamps(world, &how) };
+            let lamps = if colorless { Lamps::default() } else { lamps(world, &how) };
             // Another operator makes no other coverage.
             let voxelize = Voxelize {
                 matte: Matte::default(),

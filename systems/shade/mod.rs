@@ -5,13 +5,13 @@ use hecs::{Entity, World};
 
 use crate::components::{CastsShadow, Classify, Light, Material, OpacityUnit};
 use crate::error::Error;
-use crate::light::observer;
-use crate::light::shading::{Lamp, Lamps, Reflectance};
-use crate::products::{Gradient, LitColors, Opacity};
-use crate::schedule::{Kind, Outbox, Plan, System, Watch};
+use crate::light::shading::{Lamp, Lamps, Reflectance, lamps};
+use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
+use crate::view::observer;
 use crate::volume::bricks::{self, Bricks, EDGE};
 use crate::volume::classification::Classifier;
 use crate::volume::grid::Scalars;
+use crate::volume::layer::{Gradient, LitColors, Opacity};
 use crate::volume::seen::{self, Seen};
 
 /// Makes the [`LitColors`] of every volume that is classified.
@@ -33,11 +33,8 @@ struct Inputs {
 impl System for Shade {
     type Product = LitColors;
     const NAME: &'static str = "shade";
-    #[rustfmt::skip]
-    const READS: &'static [Kind] = &[
-        Kind::Scalars, Kind::Gradient, Kind::Opacity, Kind::Classify, Kind::Material, Kind::OpacityUnit,
-        Kind::Order, Kind::Light, Kind::CastsShadow, Kind::Shaft, Kind::View, Kind::DepthCue,
-    ];
+    const READS: &'static [ProductKey] =
+        &[ProductKey::of::<Gradient>(), ProductKey::of::<Opacity>()];
 
     fn run(world: &World, out: &mut Outbox<'_, LitColors>) -> Result<(), Error> {
         type Volume<'a> = (
@@ -61,7 +58,7 @@ impl System for Shade {
                 opacity: opacity.clone(),
                 classify: classify.clone(),
                 unit: *unit,
-                lamps: observer::lamps(world, &Reflectance::from(&material)),
+                lamps: lamps(world, &Reflectance::from(&material)),
                 material,
                 apart,
             };

@@ -3,8 +3,9 @@
 use gelray::components::{
     Classify, Color, Material, OpacityUnit, Order, Sampling, TransferPoint, View,
 };
-use gelray::polygon::face::Extent;
-use gelray::volume::grid::{Grid, Scalars, Shared};
+use gelray::shared::Shared;
+use gelray::view::extent::Extent;
+use gelray::volume::grid::{Grid, Scalars};
 use glam::{DVec2, DVec3, Vec3};
 use hecs::World;
 
@@ -189,7 +190,7 @@ fn oblique_polygons_and_views_match_the_formula_at_every_ray() {
         let center = DVec3::new(0.3, (turn * 0.37).sin() * 4.0, -0.2);
         let view = (turn * 17.3, (turn * 0.9).sin() * 60.0);
         let ratio = [1.0, 0.5, 0.37, 2.0][i as usize % 4];
-        let camera = gelray::view::walk::Camera::new(
+        let camera = gelray::view::camera::Camera::new(
             &View { azimuth: view.0, elevation: view.1, ..View::default() },
             &Extent { low: DVec3::ZERO, high: DVec3::ONE },
         );

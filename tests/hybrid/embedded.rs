@@ -1,10 +1,14 @@
 //! Every scene that is part of the program: sound at a small size, as planned, and thrifty.
 
 use gelray::components::View;
-use gelray::products::{Frame, Gel, Gradient, LitColors, Opacity, Pyramid, Samples};
 use gelray::scene::EMBEDDED;
 use gelray::systems::JOBS;
+use gelray::view::picture::Frame;
+use gelray::view::samples::Samples;
 use gelray::volume::bricks::Bricks;
+use gelray::volume::gel::Gel;
+use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::pyramid::Pyramid;
 use hecs::EntityRef;
 
 use super::support::{Shown, assert_sound, rendered, run};
@@ -22,7 +26,8 @@ fn taken(entity: EntityRef<'_>, system: &str) -> Option<u64> {
             made.base.bytes() + apart.map(Bricks::bytes).sum::<u64>()
         }),
         "relight" => bytes(entity, |made: &Gel| {
-            made.lit.bytes() + made.ambient.as_ref().map_or(0, gelray::volume::gel::Gel::bytes)
+            made.lit.bytes()
+                + made.ambient.as_ref().map_or(0, gelray::volume::gel::GelBricks::bytes)
         }),
         "pyramid" => bytes(entity, Pyramid::bytes),
         "cast" => bytes(entity, |made: &Samples| {

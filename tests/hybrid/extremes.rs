@@ -4,9 +4,10 @@ use gelray::components::{
     Classify, Color, Contour, DepthCue, Light, Material, OpacityUnit, Order, Sampling, TexelKind,
     Toward, View,
 };
-use gelray::polygon::face::Extent;
+use gelray::shared::Shared;
+use gelray::view::extent::Extent;
 use gelray::view::picture::Picture;
-use gelray::volume::grid::{Grid, Scalars, Shared};
+use gelray::volume::grid::{Grid, Scalars};
 use glam::{DVec3, Vec3};
 use hecs::World;
 

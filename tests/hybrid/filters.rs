@@ -4,10 +4,11 @@
 use std::sync::Arc;
 
 use gelray::components::{PixelFilter, Sampling, View};
-use gelray::products::{Frame, Samples};
 use gelray::schedule::{Job, Schedule, Watch};
 use gelray::systems::resample::Resample;
+use gelray::view::picture::Frame;
 use gelray::view::picture::Picture;
+use gelray::view::samples::Samples;
 use gelray::view::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
 use glam::{DVec3, DVec4};
 use hecs::World;

@@ -1,8 +1,9 @@
 //! Stepping over empty gel loses nothing, and any number of threads makes the same bytes (paper §6; algorithm §6, §10).
 
 use gelray::components::{DepthCue, Sampling, Skip, TexelKind, View};
-use gelray::polygon::face::Extent;
-use gelray::volume::grid::{Grid, Painted, Shared};
+use gelray::shared::Shared;
+use gelray::view::extent::Extent;
+use gelray::volume::grid::{Grid, Painted};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use proptest::array::{uniform2, uniform3, uniform4};
 use proptest::prelude::*;

@@ -7,15 +7,18 @@ use gelray::components::{
     Color, DepthCue, Name, OpacityUnit, Order, PixelFilter, Sampling, Skip, Surface, TexelKind,
     View,
 };
-use gelray::polygon::face::{Extent, Face, Faces};
-use gelray::products::{Frame, Samples};
+use gelray::polygon::face::{Face, Faces};
 use gelray::scene::{Source, load};
 use gelray::schedule::{Ran, Schedule, Watch};
+use gelray::shared::Shared;
 use gelray::systems::JOBS;
+use gelray::view::camera::Camera;
+use gelray::view::extent::Extent;
+use gelray::view::picture::Frame;
 use gelray::view::picture::Picture;
 use gelray::view::samples::SampleArray;
-use gelray::view::walk::Camera;
-use gelray::volume::grid::{Grid, Painted, Shared};
+use gelray::view::samples::Samples;
+use gelray::volume::grid::{Grid, Painted};
 use glam::{DVec2, DVec3, Vec3};
 use hecs::{Entity, World};
 

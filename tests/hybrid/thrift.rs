@@ -3,11 +3,14 @@
 use gelray::components::{
     Classify, Color, Contour, Light, Material, OpacityUnit, Order, Sampling, Surface, Toward, View,
 };
-use gelray::polygon::face::{Extent, Face, Faces};
-use gelray::products::{Gradient, LitColors, Opacity, Samples};
+use gelray::polygon::face::{Face, Faces};
 use gelray::schedule::Ran;
+use gelray::shared::Shared;
 use gelray::systems::JOBS;
-use gelray::volume::grid::{Scalars, Shared};
+use gelray::view::extent::Extent;
+use gelray::view::samples::Samples;
+use gelray::volume::grid::Scalars;
+use gelray::volume::layer::{Gradient, LitColors, Opacity};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use gelray::components::{Order, View};
-use gelray::polygon::face::{Extent, Face, Faces};
+use gelray::polygon::face::{Face, Faces};
+use gelray::view::extent::Extent;
 use glam::{DQuat, DVec2, DVec3};
 use hecs::World;
 use proptest::prelude::*;

@@ -71,7 +71,7 @@ fn reflected_light_falls_with_depth_by_the_same_law_on_polygons_of_both_methods(
                 view(0.0, 0.0, 64, 64.0, EVERY_PIXEL)
             );
             let world = made(&[&nothing(), &pane, light, &view]);
-            let extent = *world.query::<&gelray::polygon::face::Extent>().iter().next().unwrap();
+            let extent = *world.query::<&gelray::view::extent::Extent>().iter().next().unwrap();
             let camera = camera(&world);
             let near = camera.project(extent.center()).1 - extent.radius();
             let depth = camera.project(DVec3::new(0.0, y, 0.0)).1 - near;

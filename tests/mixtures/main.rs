@@ -15,14 +15,15 @@ mod thrift;
 use std::path::PathBuf;
 
 use gelray::components::{Name, View};
-use gelray::polygon::face::Extent;
-use gelray::products::{Frame, LightStrength};
+use gelray::light::strength::LightStrength;
 use gelray::scene::{Source, load};
 use gelray::schedule::{Ran, Schedule, Watch};
 use gelray::systems::JOBS;
+use gelray::view::camera::Camera;
+use gelray::view::extent::Extent;
+use gelray::view::picture::Frame;
 use gelray::view::picture::Picture;
 use gelray::view::samples::{SampleArray, Samples};
-use gelray::view::walk::Camera;
 use glam::DVec3;
 use hecs::{Entity, World};
 

@@ -58,7 +58,7 @@ struct Silhouette {
 }
 
 impl Silhouette {
-    fn new(grid: &Grid, camera: &gelray::view::walk::Camera, radius: f64) -> Self {
+    fn new(grid: &Grid, camera: &gelray::view::camera::Camera, radius: f64) -> Self {
         let window = |index: DVec3| camera.project(grid.index_to_world.transform_point3(index)).0;
         let center = DVec3::from(CENTER);
         let middle = window(center);

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use gelray::components::CastsShadow;
-use gelray::products::{Gradient, Opacity};
 use gelray::view::picture::Picture;
 use gelray::volume::grid::Grid;
+use gelray::volume::layer::{Gradient, Opacity};
 use glam::Vec3;
 use hecs::World;
 

@@ -1,7 +1,8 @@
 //! Textures on polygons of the hybrid ray tracer, in pictures (paper §5, the paper's figure 10).
 
-use gelray::components::{Color, TextureFilter, TexturedBy, Wrap};
+use gelray::components::{Color, TextureFilter, Wrap};
 use gelray::polygon::texture::Texture;
+use gelray::polygon::texture::TexturedBy;
 use gelray::view::picture::Picture;
 use gelray::view::samples::{POSITIONS, SampleArray};
 use hecs::World;

@@ -1,7 +1,7 @@
 //! What a scene costs that asks for little, and what a turn of the view makes again.
 
 use gelray::components::{View, Voxelize};
-use gelray::products::LightStrength;
+use gelray::light::strength::LightStrength;
 use gelray::schedule::{Job, Ran, Schedule, System, Watch};
 use gelray::systems::{classify, gradient, light_sweep::LightSweep, matte, scan_convert};
 

@@ -1,9 +1,11 @@
 //! The numerical extremes of algorithm §10 through the whole of preparation.
 
 use gelray::components::Toward;
-use gelray::products::{Gel, LitColors, Opacity};
-use gelray::volume::gel::Gel as GelBricks;
-use gelray::volume::grid::{Grid, Scalars, Shared};
+use gelray::shared::Shared;
+use gelray::volume::gel::Gel;
+use gelray::volume::gel::GelBricks;
+use gelray::volume::grid::{Grid, Scalars};
+use gelray::volume::layer::{LitColors, Opacity};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 

@@ -8,11 +8,12 @@ use gelray::components::{
     Classify, Color, Contour, Light, Material, Name, OpacityUnit, Order, Sampling, TexelKind,
     Toward, View,
 };
-use gelray::polygon::face::Extent;
 use gelray::schedule::{Ran, Schedule, Watch};
+use gelray::shared::Shared;
 use gelray::systems::JOBS;
-use gelray::volume::gel::{CELLS, Gel as GelBricks};
-use gelray::volume::grid::{Grid, Scalars, Shared};
+use gelray::view::extent::Extent;
+use gelray::volume::gel::{CELLS, GelBricks};
+use gelray::volume::grid::{Grid, Scalars};
 use gelray::with_texels;
 use glam::{DVec3, Vec3, Vec4};
 use hecs::{Entity, World};

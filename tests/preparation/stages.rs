@@ -2,9 +2,12 @@
 
 use gelray::components::{CastsShadow, Clip, DepthCue, Material, Order, TexelKind, Toward};
 use gelray::light::strength;
-use gelray::products::{Composite, Gel, Layer, LightStrength, LitColors, Opacity};
+use gelray::light::strength::LightStrength;
+use gelray::shared::Shared;
 use gelray::volume::bricks::Bricks;
-use gelray::volume::grid::{Grid, Painted, Shared};
+use gelray::volume::gel::Gel;
+use gelray::volume::grid::{Grid, Painted};
+use gelray::volume::layer::{Composite, Layer, LitColors, Opacity};
 use glam::{Vec3, Vec4};
 use hecs::World;
 
@@ -168,9 +171,9 @@ fn gel_is_kept_in_the_numbers_that_the_view_states() {
         prepare(&mut world);
         let gel = world.get::<&Gel>(volume).unwrap();
         let made = match gel.lit {
-            gelray::volume::gel::Gel::F32(_) => TexelKind::F32,
-            gelray::volume::gel::Gel::U16(_) => TexelKind::U16,
-            gelray::volume::gel::Gel::U8(_) => TexelKind::U8,
+            gelray::volume::gel::GelBricks::F32(_) => TexelKind::F32,
+            gelray::volume::gel::GelBricks::U16(_) => TexelKind::U16,
+            gelray::volume::gel::GelBricks::U8(_) => TexelKind::U8,
         };
         assert_eq!(made, kind);
     }

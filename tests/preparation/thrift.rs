@@ -4,9 +4,12 @@ use gelray::components::{
     CastsShadow, Classify, DepthCue, Material, Observer, Order, Sampling, Skip, TexelKind, Toward,
     View,
 };
-use gelray::products::{Gel, Gradient, LitColors, Opacity, Pyramid};
+use gelray::shared::Shared;
 use gelray::systems::JOBS;
-use gelray::volume::grid::{Grid, Painted, Shared};
+use gelray::volume::gel::Gel;
+use gelray::volume::grid::{Grid, Painted};
+use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::pyramid::Pyramid;
 use hecs::{Entity, World};
 
 use super::{Ball, STAGES, ball, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume};
@@ -115,7 +118,8 @@ fn taken(world: &World, stage: &str, entity: Entity) -> Option<u64> {
             made.base.bytes() + apart.map(gelray::volume::bricks::Bricks::bytes).sum::<u64>()
         }),
         "relight" => world.get::<&Gel>(entity).ok().map(|made| {
-            made.lit.bytes() + made.ambient.as_ref().map_or(0, gelray::volume::gel::Gel::bytes)
+            made.lit.bytes()
+                + made.ambient.as_ref().map_or(0, gelray::volume::gel::GelBricks::bytes)
         }),
         _ => world.get::<&Pyramid>(entity).ok().map(|made| made.bytes()),
     }

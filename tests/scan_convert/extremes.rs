@@ -3,11 +3,11 @@
 use gelray::components::{Color, Matte};
 use gelray::components::{Light, Observer, Order, Surface, Toward, View, Voxelize};
 use gelray::polygon::face::Face;
-use gelray::products::{Composite, Coverage, Layer};
 use gelray::schedule::System;
 use gelray::systems::matte::Matte as MatteSystem;
 use gelray::systems::scan_convert::ScanConvert;
 use gelray::volume::grid::Grid;
+use gelray::volume::layer::{Composite, Coverage, Layer};
 use glam::DVec3;
 
 use crate::scene::{Tracer, add, composite, cover, cube, flat, rectangle, run, total, world};

@@ -1,9 +1,10 @@
 //! Facts about composites: volume and polygons by every operator, in the order of the scene.
 
 use gelray::components::{Clip, Color, Matte, Order, Surface, Voxelize};
-use gelray::products::{Coverage, Layer, LitColors, Opacity};
+use gelray::shared::Shared;
 use gelray::volume::bricks::Bricks;
-use gelray::volume::grid::{Grid, Painted, Shared};
+use gelray::volume::grid::{Grid, Painted};
+use gelray::volume::layer::{Coverage, Layer, LitColors, Opacity};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 

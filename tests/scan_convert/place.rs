@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use gelray::components::{CastsShadow, Color, DepthCue, Light, Order, Surface, Toward, View};
 use gelray::polygon::face::Face;
-use gelray::products::{Coverage, Layer};
 use gelray::volume::grid::Grid;
+use gelray::volume::layer::{Coverage, Layer};
 use glam::{DVec3, Vec3};
 
 use crate::scene::{Tracer, add, cover, cube, flat, rectangle, run, sphere, total, world};

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use gelray::Error;
 use gelray::components::{Matte, OpacityUnit, Order, Surface, Voxelize};
 use gelray::polygon::face::{Face, Faces};
-use gelray::products::{Composite, Coverage};
 use gelray::schedule::{Job, Schedule, Watch};
 use gelray::systems::{matte, scan_convert};
 use gelray::view::composite::{Gathered, thicken};
 use gelray::volume::bricks::Bricks;
 use gelray::volume::grid::Grid;
+use gelray::volume::layer::{Composite, Coverage};
 use glam::DVec3;
 use hecs::{Entity, World};
 

@@ -1,8 +1,10 @@
 //! Numbers at the ends of their ranges (algorithm §10), and equal bytes from any number of threads.
 
 use gelray::components::CastsShadow;
-use gelray::products::{LightStrength, Opacity};
-use gelray::volume::grid::{Grid, Painted, Shared};
+use gelray::light::strength::LightStrength;
+use gelray::shared::Shared;
+use gelray::volume::grid::{Grid, Painted};
+use gelray::volume::layer::Opacity;
 use glam::DVec3;
 
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes, noise, point, voxels};

@@ -1,13 +1,13 @@
 //! Worlds of one volume and one light, swept by the system itself.
 
-use gelray::components::{
-    CastsShadow, Color, Light, Name, OpacityUnit, Order, ProjectedBy, Shaft, Toward,
-};
-use gelray::products::{LightStrength, Opacity};
+use gelray::components::{CastsShadow, Color, Light, Name, OpacityUnit, Order, Shaft, Toward};
+use gelray::light::strength::LightStrength;
+use gelray::light::strength::ProjectedBy;
 use gelray::schedule::{Job, Schedule, Watch};
 use gelray::systems::light_sweep::LightSweep;
 use gelray::volume::bricks::{Bricks, VOXELS};
 use gelray::volume::grid::Grid;
+use gelray::volume::layer::Opacity;
 use glam::{DAffine3, DVec3};
 use hecs::{Entity, World};
 

@@ -1,6 +1,7 @@
 //! Textures projected through the volume: where they land, how sharp, and never aliased.
 
-use gelray::components::{ProjectedBy, Projects, Wrap};
+use gelray::components::{Projects, Wrap};
+use gelray::light::strength::ProjectedBy;
 use gelray::view::picture::Picture;
 use glam::DVec3;
 

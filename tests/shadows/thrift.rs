@@ -5,12 +5,14 @@ use std::time::Instant;
 
 use gelray::components::{CastsShadow, Observer, Order, Shaft, Toward, View, Voxelize};
 use gelray::components::{Light, Matte};
+use gelray::light::strength::LightStrength;
 use gelray::polygon::face::{Face, Faces};
-use gelray::products::{Coverage, Layer, LightStrength, LitColors};
 use gelray::schedule::{Job, Schedule, System, Watch};
+use gelray::shared::Shared;
 use gelray::systems::light_sweep::LightSweep;
 use gelray::volume::bricks::Bricks;
-use gelray::volume::grid::{Scalars, Shared};
+use gelray::volume::grid::Scalars;
+use gelray::volume::layer::{Coverage, Layer, LitColors};
 use glam::DVec3;
 use hecs::World;
 

@@ -10,7 +10,8 @@ use std::path::Path;
 use super::number::{self, Binary, NumberType, Stored};
 use super::stream::Stream;
 use super::{Loaded, Stated, Voxels};
-use crate::volume::grid::{Scalars, Shared};
+use crate::shared::Shared;
+use crate::volume::grid::Scalars;
 use crate::with_scalars;
 use header::{Header, LENGTH};
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Falloff, Shear, Slide};
-use crate::volume::grid::Shared;
+use crate::shared::Shared;
 
 /// The strength of a light anywhere in space; made only where something asks for it. Equality is identity.
 #[derive(Debug, Clone, PartialEq)]

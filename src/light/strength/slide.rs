@@ -7,8 +7,22 @@
 use glam::DVec3;
 
 use super::Shear;
-use crate::components::{ProjectedBy, Wrap};
-use crate::volume::grid::Shared;
+use crate::components::{Projects, Wrap};
+use crate::shared::Shared;
+use crate::view::picture::Picture;
+
+/// `projects`, resolved: the picture itself and where it lies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProjectedBy {
+    /// As stated.
+    pub projects: Projects,
+    /// The slide's texels.
+    pub picture: Picture,
+    /// The world point that the middle of the texture falls on.
+    pub center: DVec3,
+    /// The direction that the texture's top points to, of any length above 0; may lie along the light.
+    pub up: DVec3,
+}
 
 /// The brightest luminance that a slide has: that of the largest 16-bit float.
 const BRIGHTEST: f32 = 65504.0;

@@ -1,6 +1,6 @@
 //! What lies in the braincase: folded brain with ventricles, in fluid.
 
-use super::SIZE;
+use super::row::SIZE;
 use crate::phantom::shapes::Piece;
 use crate::phantom::solid::{Slice, Solid, coverage};
 
@@ -66,7 +66,7 @@ pub struct BrainSlice<'a> {
 impl BrainSlice<'_> {
     /// The values of row j at places `xs` whose depth under the inside of the skull is `depths`, into `out`.
     pub fn row(&self, xs: &[f32], (j, y): (usize, f32), depths: &[f32], out: &mut [f32]) {
-        let mut distances = vec![super::FAR; xs.len()];
+        let mut distances = vec![crate::phantom::solid::FAR; xs.len()];
         let cerebellum = self.cerebellum.lay(xs, y, &mut distances);
         let [sy, cy] = self.waves[1][j];
         let [sz, cz] = self.waves[2][self.k];
@@ -82,7 +82,7 @@ impl BrainSlice<'_> {
             let leaf = 1074.0 + 10.0 * leaves - 40.0 * tent;
             out[i] += (leaf - out[i]) * inside.max(tent);
         }
-        distances.fill(super::FAR);
+        distances.fill(crate::phantom::solid::FAR);
         for i in self.ventricles.lay(xs, y, &mut distances) {
             out[i] += (FLUID - 4.0 - out[i]) * coverage(distances[i], 2.0);
         }

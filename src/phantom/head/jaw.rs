@@ -1,6 +1,6 @@
 //! The lower jaw, two rows of teeth with a metal filling and its streaks, and the vertebrae of the neck.
 
-use super::{EDGE, Row};
+use super::row::{EDGE, Row};
 use crate::phantom::shapes::Piece;
 use crate::phantom::solid::{Slice, Solid};
 

@@ -6,28 +6,23 @@
 
 mod brain;
 mod jaw;
+mod row;
 mod skin;
 mod skull;
-
-use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::simple::centred;
-use super::solid::{FAR, Slice, Solid, coverage};
+use super::solid::{FAR, Solid};
 use crate::formats::Loaded;
-use crate::volume::grid::{Scalars, Shared};
+use crate::shared::Shared;
+use crate::volume::grid::Scalars;
+use row::{AIR, EDGE, Row, SIZE};
 
-const SIZE: [usize; 3] = [256, 256, 113];
 const SPACING: [f64; 3] = [1.0, 1.0, 2.0];
 
 /// Slices 1 mm apart from z = −114 mm, of which the slices are made.
 const THIN_SLICES: usize = 2 * SIZE[2] + 3;
-
-/// Width of the ramp at an edge, mm: two voxels, so that a contour of it has no stairs.
-const EDGE: f32 = 2.0;
-
-const AIR: f32 = 25.0;
 
 /// The head; see the module.
 pub fn head() -> Loaded {
@@ -46,37 +41,6 @@ fn thicken(slices: &[u16], k: usize, out: &mut [u16]) {
     for (i, voxel) in out.iter_mut().enumerate() {
         // Values stay under 4096, so that eight of them fit 16 bits.
         *voxel = (a[i] + 2 * (b[i] + c[i] + d[i]) + e[i] + 4) / 8;
-    }
-}
-
-/// Where the voxels of a row are, and the values painted so far.
-struct Row<'a> {
-    x: &'a [f32],
-    y: f32,
-    z: f32,
-    values: &'a mut [f32],
-    distances: &'a mut [f32],
-}
-
-impl Row<'_> {
-    /// Paints a solid with one value.
-    fn paint(&mut self, solid: &Slice, value: f32, width: f32) {
-        let range = self.lay(solid);
-        self.blend(range, width, |_, _| value);
-    }
-
-    /// The distances to a solid, in the range of voxels that it comes near.
-    fn lay(&mut self, solid: &Slice) -> Range<usize> {
-        self.distances.fill(FAR);
-        solid.lay(self.x, self.y, self.distances)
-    }
-
-    /// Paints the voxels of a range with a value by position and distance, as far as each is covered.
-    fn blend(&mut self, range: Range<usize>, width: f32, value: impl Fn(f32, f32) -> f32) {
-        let voxels = self.values[range.clone()].iter_mut().zip(&self.x[range.clone()]);
-        for ((v, &x), &d) in voxels.zip(&self.distances[range]) {
-            *v += (value(x, d) - *v) * coverage(d, width);
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::brain::BrainSlice;
-use super::{AIR, EDGE, Row};
+use super::row::{AIR, EDGE, Row};
 use crate::phantom::shapes::Piece;
 use crate::phantom::solid::{FAR, Slice, Solid, coverage};
 

@@ -13,11 +13,10 @@
 
 use super::calibration::Calibration;
 use super::flat::Flat;
+use super::layer::{REACH, tent};
 use crate::components::{Surface, Voxelize};
 use crate::volume::grid::Grid;
 
-/// How far the calibrated ball reaches along the normal, voxels; no ball reaches farther.
-pub const REACH: f64 = 2.0;
 /// Up to here optical depth is spread; between here and 1 the layer is lifted to opaque.
 const TRANSLUCENT: f64 = 0.99;
 
@@ -169,11 +168,6 @@ fn in_range(opacity: f64) -> f64 {
 /// α of a voxel that gets its part of an optical depth.
 fn layered(depth: f64, height: f64) -> f64 {
     -libm::expm1(-depth * tent(height))
-}
-
-/// w(h): the part of the optical depth that a voxel `height` voxels from the plane gets. Sums to 1 over voxels in a row.
-pub(super) fn tent(height: f64) -> f64 {
-    (REACH - height.abs()).max(0.0) / (REACH * REACH)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 //! tri-linear interpolation does not tell the voxels' own pattern from the plane; their mean is right to 0.5 %. A sample
 //! distance over a voxel may step over an opaque polygon.
 
-use super::ball::tent;
+use super::layer::tent;
 
 /// Depths for which the scale is found: steps between 0 and the polygon's own.
 const DEPTHS: usize = 8;

@@ -8,8 +8,7 @@ use std::ops::Range;
 
 use glam::{DMat2, DVec2, DVec4, Vec4};
 
-use super::MOST_TEXELS;
-use super::footprint::{Footprint, widened};
+use super::footprint::{Footprint, MOST_TEXELS, widened};
 use super::mip::{Level, wrapped};
 use crate::components::Wrap;
 

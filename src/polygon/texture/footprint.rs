@@ -2,6 +2,9 @@
 
 use glam::{DMat2, DVec2};
 
+/// Texels that the slower filters read for one lookup, about; larger footprints are averaged over a coarser level.
+pub(super) const MOST_TEXELS: f64 = 4096.0;
+
 /// Textures that a footprint spans at most: beyond, it is held there and stays finite.
 const LIMIT: f64 = 1e6;
 

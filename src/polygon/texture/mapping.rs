@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::Footprint;
 use crate::components::Textured;
 use crate::polygon::face::Face;
-use crate::view::walk::Camera;
+use crate::view::camera::Camera;
 
 /// Sines under this count as 0: a view along a polygon, corners on one line.
 const SLIGHT: f64 = 1e-6;

@@ -6,9 +6,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, Vec4};
+use glam::{DVec2, DVec3, Vec4};
 
-use crate::components::{TextureFilter, Wrap};
+use crate::components::{TextureFilter, Textured, Wrap};
 use crate::view::picture::Picture;
 
 mod area;
@@ -21,9 +21,6 @@ mod mip;
 pub use footprint::Footprint;
 pub use mapping::Mapping;
 use mip::Level;
-
-/// Texels that the slower filters read for one lookup, about; larger footprints are averaged over a coarser level.
-const MOST_TEXELS: f64 = 4096.0;
 
 /// A texture ready for lookups: linear, associated RGBA and its coarser levels, shared by pointer.
 #[derive(Debug, Clone)]
@@ -99,6 +96,17 @@ impl Texture {
         let uv = DVec2::new(finite(uv.x), finite(uv.y));
         if self.wrap == Wrap::Repeat { uv - uv.floor() } else { uv }
     }
+}
+
+/// `textured`, resolved: the picture itself and the corners that it is laid between.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TexturedBy {
+    /// As stated.
+    pub textured: Textured,
+    /// The texture, ready for lookups.
+    pub texture: Texture,
+    /// World points of the texture's top left, top right and bottom left corners; never on one line.
+    pub corners: [DVec3; 3],
 }
 
 #[cfg(test)]

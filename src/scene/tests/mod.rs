@@ -6,10 +6,13 @@ use hecs::World;
 
 use super::{EMBEDDED, Scene, Source, grammar, load, schema, table};
 use crate::components::{
-    CastsShadow, Classify, Light, Material, Name, OpacityUnit, Order, ProjectedBy, Sampling, Skip,
-    Surface, TexturedBy, View, Voxelize,
+    CastsShadow, Classify, Light, Material, Name, OpacityUnit, Order, Sampling, Skip, Surface,
+    View, Voxelize,
 };
-use crate::polygon::face::{Extent, Faces};
+use crate::light::strength::ProjectedBy;
+use crate::polygon::face::Faces;
+use crate::polygon::texture::TexturedBy;
+use crate::view::extent::Extent;
 use crate::volume::grid::{Grid, Painted, Scalars};
 
 const BALL: &str = "[[entity]]\nname = \"ball\"\nvolume = { file = \"phantom:ball\" }\nclassify = { iso = [{ value = 0.5 }] }\n";

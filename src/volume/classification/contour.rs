@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{opacity_in_range, square};
+use super::numbers::{opacity_in_range, square};
 use crate::components::{Color, Contour};
 
 /// `α_v (1 − |f_v − f| / (r g))` for one or more contours.
@@ -65,7 +65,7 @@ impl Contours {
     pub fn color(&self, f: f64, gradient: [f32; 3]) -> Option<DVec3> {
         let gg = square(gradient);
         let weighted = self.0.iter().map(|line| (line.opacity(f, gg), line.color));
-        super::weighted_mean(weighted)
+        super::numbers::weighted_mean(weighted)
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::curve::Curve;
-use super::{opacity_in_range, weighted_mean};
+use super::numbers::{opacity_in_range, weighted_mean};
 use crate::components::{ClassifyMaterial, Color};
 
 /// Opacity and associated colour of a voxel are sums over the materials, weighted by their probabilities.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::curve::Curve;
-use super::{opacity_in_range, square};
+use super::numbers::{opacity_in_range, square};
 use crate::components::{Color, Tissue};
 
 /// `α = g' · (α_v interpolated between the two neighbouring tissue values)`.

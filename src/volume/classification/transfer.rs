@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::curve::Curve;
-use super::{opacity_in_range, square};
+use super::numbers::{opacity_in_range, square};
 use crate::components::{Color, TransferPoint};
 
 /// What every other program calls a transfer function.

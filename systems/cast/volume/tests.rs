@@ -6,8 +6,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::components::View;
-use crate::polygon::face::Extent;
-use crate::view::walk::Camera;
+use crate::view::camera::Camera;
+use crate::view::extent::Extent;
 use crate::volume::gel::Texels;
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;

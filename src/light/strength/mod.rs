@@ -9,11 +9,12 @@ mod falloff;
 mod shear;
 mod slide;
 
+use crate::schedule::Product;
 use crate::volume::bricks::Bricks;
 pub use buffer::Buffer;
 pub use falloff::Falloff;
 pub use shear::{Place, Shear, Window};
-pub use slide::Slide;
+pub use slide::{ProjectedBy, Slide};
 
 /// β of one light at every interesting voxel: 0 ..= 65535 stands for 0..=1 times `full`.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub struct LightStrength {
     /// β anywhere in space, where something asks for it: hybrid polygons that receive shadows, or a shaft of light.
     pub buffer: Option<Buffer>,
 }
+
+impl Product for LightStrength {}
 
 impl LightStrength {
     /// Bytes that the product takes.

@@ -1,13 +1,17 @@
 //! What can go wrong, by whose fault: one sentence each, with the remedy.
 
+mod scene;
+
 use std::path::PathBuf;
+
+pub use scene::SceneError;
 
 /// A failure, told in one sentence that names what was found, what was expected and what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The scene (or an override of it) states something that cannot be rendered.
     #[error("{0}")]
-    Scene(Box<crate::scene::SceneError>),
+    Scene(Box<SceneError>),
     /// An entity of the scene is at fault: its name and the sentence.
     #[error("entity `{entity}`: {problem}")]
     Entity {
@@ -54,8 +58,8 @@ impl Error {
     }
 }
 
-impl From<crate::scene::SceneError> for Error {
-    fn from(error: crate::scene::SceneError) -> Self {
+impl From<SceneError> for Error {
+    fn from(error: SceneError) -> Self {
         Self::Scene(Box::new(error))
     }
 }

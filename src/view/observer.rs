@@ -4,9 +4,8 @@ use glam::DVec3;
 use hecs::{Entity, World};
 
 use crate::components::{DepthCue, Order, Sampling, View};
-use crate::light::shading::{Lamps, Reflectance, depends_on_view};
-use crate::polygon::face::Extent;
-use crate::view::walk::Camera;
+use crate::view::camera::Camera;
+use crate::view::extent::Extent;
 
 /// Where an observer is taken to stand who makes no difference: in front, as at azimuth 0 and elevation 0.
 pub const ANYWHERE: DVec3 = DVec3::NEG_Y;
@@ -25,14 +24,6 @@ pub fn direction(world: &World) -> DVec3 {
     // Rays are parallel: where they point depends on no extent.
     let somewhere = Extent { low: DVec3::ZERO, high: DVec3::ONE };
     view.map_or(ANYWHERE, |view| -Camera::new(&view, &somewhere).forward)
-}
-
-/// The lights as they fall on something of this reflectance. Where the observer makes no difference he is no part of it:
-/// what is lit by them need not be shaded again for another view.
-#[must_use]
-pub fn lamps(world: &World, how: &Reflectance) -> Lamps {
-    let depends = depends_on_view(world, how);
-    Lamps::of(world, if depends { direction(world) } else { ANYWHERE })
 }
 
 /// How the view samples; the defaults where it states nothing.

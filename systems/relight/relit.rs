@@ -4,11 +4,11 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::components::TexelKind;
-use crate::products::LightStrength;
+use crate::light::strength::LightStrength;
 use crate::volume::bricks::{Bricks, EDGE, Place};
-use crate::volume::gel::Gel;
+use crate::volume::gel::GelBricks;
 
-/// Gel that is nowhere more opaque than this is kept in 32 bits.
+/// GelBricks that is nowhere more opaque than this is kept in 32 bits.
 const FAINT: f32 = 1.0 / 16.0;
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
@@ -25,7 +25,7 @@ pub struct Relit<'a> {
 impl Relit<'_> {
     /// The associated gel: `c_T · α` and α. `Auto` is decided by what there is.
     #[must_use]
-    pub fn gel(&self, kind: TexelKind) -> Gel {
+    pub fn gel(&self, kind: TexelKind) -> GelBricks {
         let fill = |[x, y, z]: [usize; 3], row: &mut [Vec4]| {
             let brick = [x / EDGE, y / EDGE, z / EDGE];
             let within = (z % EDGE * EDGE + y % EDGE) * EDGE;
@@ -36,7 +36,7 @@ impl Relit<'_> {
             }
         };
         let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
-        Gel::make(kind, self.opacity.size(), |brick| self.holds(brick), fill)
+        GelBricks::make(kind, self.opacity.size(), |brick| self.holds(brick), fill)
     }
 
     /// 16-bit texels where their steps are small against the gel and none of its colours is above 1; else 32-bit ones.
@@ -129,8 +129,8 @@ mod tests {
         opacity.map(|_, _, made| made.fill(color))
     }
 
-    fn texel(gel: &Gel, voxel: [usize; 3]) -> Option<Vec4> {
-        let Gel::F32(texels) = gel else { panic!("32-bit gel was asked for") };
+    fn texel(gel: &GelBricks, voxel: [usize; 3]) -> Option<Vec4> {
+        let GelBricks::F32(texels) = gel else { panic!("32-bit gel was asked for") };
         let [nx, ny, _] = texels.counts();
         let [x, y, z] = voxel.map(|n| n / CELLS);
         let brick = texels.table()[(z * ny + y) * nx + x];

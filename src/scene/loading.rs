@@ -1,0 +1,97 @@
+//! A scene half-way: what is stated, what has been read so far, and where files are looked for.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use hecs::World;
+
+use super::entity::unused;
+use super::error::Text;
+use super::parse::Entry;
+use crate::components::{Name, Order};
+use crate::error::Error;
+
+/// A scene half-way: its text, what is stated, and what has been read so far.
+pub(super) struct Loading<'t> {
+    pub text: Text<'t>,
+    pub entries: Vec<Entry<'t>>,
+    pub folders: Folders,
+    pub world: World,
+    pub warnings: Vec<String>,
+}
+
+impl Loading<'_> {
+    /// The positions of the entries of some nouns, in the order of the scene.
+    pub fn nouns(&self, nouns: &[&str]) -> Vec<usize> {
+        (0..self.entries.len()).filter(|&i| nouns.contains(&self.entries[i].noun)).collect()
+    }
+
+    /// A copy of a component of an entry, if it has it.
+    pub fn get<T: Clone + Send + Sync + 'static>(&self, entry: usize) -> Option<T> {
+        self.world.get::<&T>(self.entries[entry].entity).ok().map(|component| (*component).clone())
+    }
+
+    /// Puts components on the entity of an entry.
+    pub fn add(&mut self, entry: usize, components: impl hecs::DynamicBundle) {
+        // The entity was spawned from this very entry and none is ever taken away.
+        let _ = self.world.insert(self.entries[entry].entity, components);
+    }
+
+    /// An entity that the scene does not state, with a name that is free, after all others.
+    pub fn spawn(&mut self, name: &str, components: impl hecs::DynamicBundle) {
+        let taken: BTreeSet<_> =
+            self.world.query_mut::<&Name>().into_iter().map(|name| name.0.clone()).collect();
+        let entity = self.world.spawn(components);
+        let identity = (Name(unused(name, &taken)), Order(taken.len() as u32));
+        let _ = self.world.insert(entity, identity);
+    }
+
+    /// An error of a component of an entry: `problem` is the rest of a sentence that the entity's name begins.
+    pub fn error(
+        &self,
+        entry: usize,
+        component: &str,
+        path: &str,
+        problem: impl AsRef<str>,
+    ) -> Error {
+        self.entries[entry].fault(component, path, problem).within(self.text).into()
+    }
+
+    /// Keeps a warning about an entry.
+    pub fn warn(&mut self, entry: usize, problem: impl AsRef<str>) {
+        self.warnings.push(format!("entity `{}`: {}", self.entries[entry].name, problem.as_ref()));
+    }
+}
+
+/// Where files are looked for.
+pub(super) struct Folders {
+    pub scene: PathBuf,
+    pub data: Vec<PathBuf>,
+}
+
+impl Folders {
+    /// The file (or, for a series of slices, the folder) of that path: in the scene's folder, in each data folder, or in
+    /// the folders in it, in the order of their names.
+    pub fn find(&self, file: &str) -> Option<PathBuf> {
+        let direct =
+            std::iter::once(self.scene.join(file)).chain(self.data.iter().flat_map(|folder| {
+                std::iter::once(folder.join(file))
+                    .chain(inner(folder).into_iter().map(|f| f.join(file)))
+            }));
+        direct.into_iter().find(|path| path.exists())
+    }
+
+    /// The folders, for sentences.
+    pub fn list(&self) -> String {
+        let all = std::iter::once(&self.scene).chain(&self.data);
+        all.map(|folder| format!("`{}`", folder.display())).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The folders in a folder, in the order of their names; none if it cannot be read.
+fn inner(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut folders: Vec<_> = entries.map(|e| e.path()).filter(|path| path.is_dir()).collect();
+    folders.sort();
+    folders
+}
