@@ -43,8 +43,14 @@ pub struct Aim {
 pub trait Caster: Sync {
     /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
     type Scratch: Default;
-    /// Casts one ray.
-    fn cast(&self, aim: Aim, scratch: &mut Self::Scratch, counts: &mut Counts) -> Ray;
+    /// Casts the rays at `aims`, neighbours in the picture, and puts what they saw into `rays`, which is as long.
+    fn cast(
+        &self,
+        aims: &[Aim],
+        rays: &mut [Ray],
+        scratch: &mut Self::Scratch,
+        counts: &mut Counts,
+    );
 }
 
 /// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
@@ -233,15 +239,22 @@ fn cast_band<C: Caster>(
 ) {
     let mut scratch = C::Scratch::default();
     let mut positions = Vec::with_capacity(SIDE * SIDE);
+    let (mut aims, mut rays) = (Vec::with_capacity(SIDE * SIDE), Vec::with_capacity(SIDE * SIDE));
     let shift = step.trailing_zeros();
     for x in 0..beams.counts[0] {
         let beam = band.number * beams.counts[0] + x;
         band.positions(&beams.layout, x, step, &mut positions);
-        for &[i, j] in positions.iter().filter(|[i, j]| wanted(i >> shift, j >> shift)) {
+        positions.retain(|[i, j]| wanted(i >> shift, j >> shift));
+        aims.clear();
+        aims.extend(positions.iter().map(|&[i, j]| {
             let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
-            let aim = Aim { beam, window, step };
-            let ray = caster.cast(aim, &mut scratch, &mut band.counts);
-            band.write(&beams.layout, i, j, &ray);
+            Aim { beam, window, step }
+        }));
+        rays.clear();
+        rays.resize(aims.len(), Ray::default());
+        caster.cast(&aims, &mut rays, &mut scratch, &mut band.counts);
+        for (&[i, j], ray) in positions.iter().zip(&rays) {
+            band.write(&beams.layout, i, j, ray);
         }
     }
 }

@@ -200,7 +200,15 @@ struct BeamCaster<'a, T> {
 impl<T: Texel> Caster for BeamCaster<'_, T> {
     type Scratch = Vec<Hit>;
 
-    fn cast(&self, aim: Aim, hits: &mut Vec<Hit>, counts: &mut Counts) -> Ray {
+    fn cast(&self, aims: &[Aim], rays: &mut [Ray], hits: &mut Vec<Hit>, counts: &mut Counts) {
+        for (aim, ray) in aims.iter().zip(rays) {
+            *ray = self.cast_one(*aim, hits, counts);
+        }
+    }
+}
+
+impl<T: Texel> BeamCaster<'_, T> {
+    fn cast_one(&self, aim: Aim, hits: &mut Vec<Hit>, counts: &mut Counts) -> Ray {
         let Rays { polygons, stop, .. } = &self.rays;
         if !polygons.is_empty() {
             polygons.meet(aim.beam, aim.window, hits);
@@ -223,9 +231,7 @@ impl<T: Texel> Caster for BeamCaster<'_, T> {
             if self.three_colors { march::geometric(hits, plain, *stop) } else { [0.0; 4] };
         Ray { full: colors.full.rgba(*stop), attenuated: colors.attenuated, geometric }
     }
-}
 
-impl<T: Texel> BeamCaster<'_, T> {
     /// Where the ray through a window position enters the gel.
     fn cursor(&self, beam: usize, window: DVec2) -> Cursor {
         let Some(volume) = &self.volume else { return Cursor::NOWHERE };
