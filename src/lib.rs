@@ -19,6 +19,28 @@
 //! - **Measured.** The schedule opens a span around every system; [`measure::cost`] sums them to the cost table of §7.
 //!   Counts of rays and samples are facts about a picture and live in the product [`products::Samples`].
 //!
+//! # The rooms
+//!
+//! What two stages share lives in `src`, under the thing that it is about; what one stage alone uses lives in that stage's
+//! folder in `systems/`. A room names only those above it in this table, no files name each other in a circle, and no stage
+//! names a file of another: a test walks the imports.
+//!
+//! | room | what is in it |
+//! |---|---|
+//! | `error` | what can go wrong, by whose fault |
+//! | `shared` | arrays made once and compared by identity |
+//! | `schedule` | systems, their products and their order |
+//! | `components` | what a scene states |
+//! | `volume` | grids, bricks, gel, pyramid, classification, clips, painted voxels |
+//! | `view` | the camera, the walk of a ray, samples, compositing, the picture |
+//! | `polygon` | faces, textures, what a polygon covers of voxels |
+//! | `light` | shading, and how strong a light still is |
+//! | `measure` | errors between pictures, histograms, the cost table |
+//! | `formats` | a file format a file |
+//! | `phantom` | volumes and textures made by formula |
+//! | `scene` | TOML to a world of entities |
+//! | `systems` | the stages, a folder each |
+//!
 //! # The walk of a voxel
 //!
 //! | stage | makes | by way of |

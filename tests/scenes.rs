@@ -9,10 +9,10 @@ use gelray::components::View;
 use gelray::formats::pictures::encoded::to_bytes;
 use gelray::formats::pictures::{read_picture, write_picture};
 use gelray::scene::{EMBEDDED, Source, load};
-use gelray::schedule::{Schedule, Watch};
+use gelray::schedule::{Job, Schedule, Watch};
 use gelray::systems::JOBS;
-use gelray::view::picture::Frame;
-use gelray::view::picture::Picture;
+use gelray::view::picture::{Frame, Picture};
+use hecs::World;
 
 /// The longest side of a golden, in pixels.
 const LONGEST: u32 = 96;
@@ -34,15 +34,21 @@ fn names(of: &str, ending: &str) -> Vec<String> {
     names
 }
 
-/// Renders a scene at the size of a golden; the shape of its picture stays.
+/// The world of a scene whose picture is at most `longest` pixels a side; the shape of the picture stays.
+fn loaded(name: &str, most: u32) -> Result<World, gelray::Error> {
+    let source = Source::read(folder("scenes").join(format!("{name}.toml")))?;
+    let mut world = load(&source, &[], &[], false)?.world;
+    for view in world.query_mut::<&mut View>() {
+        let longest = view.size[0].max(view.size[1]).max(most);
+        view.size = view.size.map(|side| (side * most).div_ceil(longest));
+    }
+    Ok(world)
+}
+
+/// Renders a scene at the size of a golden.
 fn rendered(name: &str) -> Result<Picture, String> {
     let told = |error: gelray::Error| error.to_string();
-    let source = Source::read(folder("scenes").join(format!("{name}.toml"))).map_err(told)?;
-    let mut world = load(&source, &[], &[], false).map_err(told)?.world;
-    for view in world.query_mut::<&mut View>() {
-        let longest = view.size[0].max(view.size[1]).max(LONGEST);
-        view.size = view.size.map(|side| (side * LONGEST).div_ceil(longest));
-    }
+    let mut world = loaded(name, LONGEST).map_err(told)?;
     let schedule = Schedule::new(JOBS).map_err(told)?;
     schedule.run(&mut world, &Watch::default()).map_err(told)?;
     let mut frames = world.query::<&Frame>();
@@ -95,6 +101,55 @@ fn every_scene_looks_as_its_golden_picture() {
         faults.extend(outcome.err());
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A traced polygon that casts a shadow: what no scene of the paper's figures has.
+const SHADOWING: &str = r#"
+entity = [
+    { name = "ball", volume = { file = "phantom:ball" }, classify = { iso = [{ value = 0.5 }] } },
+    { polygon = { vertices = [[0, 0, 28], [9, 0, 28], [0, 9, 28]] } },
+    { light = { toward = [0, 0, 1] }, casts_shadow = {} },
+    { view = { size = [8, 8] } },
+]
+"#;
+
+/// How many products a job makes and keeps, run alone; `None` if it fails.
+fn ran(job: &Job, world: &mut World) -> Option<(u32, u32)> {
+    let ran = Schedule::new(&[*job]).unwrap().run(world, &Watch::default()).ok()?;
+    Some((ran[0].made, ran[0].reused))
+}
+
+#[test]
+fn a_system_reads_the_products_that_it_names_and_no_other() {
+    let mut idle: Vec<_> =
+        JOBS.iter().flat_map(|job| job.reads.iter().map(move |read| (job, *read))).collect();
+    let shadowing = load(&Source::inline("shadowing", SHADOWING), &[], &[], false).unwrap().world;
+    let mut worlds = vec![("shadowing".to_owned(), shadowing)];
+    worlds.extend(names("scenes", "toml").into_iter().map(|name| {
+        let world = loaded(&name, 8).unwrap();
+        (name, world)
+    }));
+    for (name, mut world) in worlds {
+        Schedule::new(JOBS).unwrap().run(&mut world, &Watch::default()).unwrap();
+        for job in JOBS {
+            let others = JOBS.iter().map(|other| other.makes);
+            let others = others.filter(|key| *key != job.makes && !job.reads.contains(key));
+            let hidden: Vec<_> = others.map(|key| key.hide(&mut world)).collect();
+            let kept = ran(job, &mut world).is_some_and(|(made, _)| made == 0);
+            assert!(kept, "{name}: {} reads what it does not name", job.name);
+            hidden.into_iter().for_each(|restore| restore(&mut world));
+        }
+        idle.retain(|(job, read)| {
+            let with = ran(job, &mut world);
+            let restore = read.hide(&mut world);
+            let without = ran(job, &mut world);
+            restore(&mut world);
+            ran(job, &mut world);
+            with == without
+        });
+    }
+    let idle: Vec<_> = idle.iter().map(|(job, read)| format!("{} {read:?}", job.name)).collect();
+    assert!(idle.is_empty(), "named and never read: {idle:?}");
 }
 
 #[test]

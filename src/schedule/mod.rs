@@ -14,7 +14,7 @@ use hecs::{CommandBuffer, Entity, World};
 
 use crate::error::Error;
 pub use outbox::Outbox;
-pub use product::{Made, Product, ProductKey};
+pub use product::{Made, Product, ProductKey, Restore};
 pub use watch::Watch;
 
 /// A stage of the paper's figures 1, 4 and 5.

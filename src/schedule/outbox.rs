@@ -41,10 +41,9 @@ impl<'a, P: Product> Outbox<'a, P> {
                 "a system derives the {name} of one entity twice"
             )));
         }
-        if self
-            .world
-            .get::<&Made<P>>(entity)
-            .is_ok_and(|last| last.inputs.downcast_ref() == Some(&inputs))
+        let made = self.world.get::<&Made<P>>(entity);
+        if made.is_ok_and(|last| last.inputs.downcast_ref() == Some(&inputs))
+            && self.world.get::<&P>(entity).is_ok()
         {
             self.reused += 1;
             return Ok(());

@@ -14,19 +14,22 @@ pub struct Made<P> {
     pub(super) product: PhantomData<fn() -> P>,
 }
 
+/// Puts hidden products back.
+pub type Restore = Box<dyn FnOnce(&mut World)>;
+
 /// The type of a product, as a value: what an order is derived from.
 #[derive(Clone, Copy)]
 pub struct ProductKey {
     id: TypeId,
     name: fn() -> &'static str,
-    take_off: fn(&mut World),
+    hide: fn(&mut World) -> Restore,
 }
 
 impl ProductKey {
     /// The key of a product.
     #[must_use]
     pub const fn of<P: Product>() -> Self {
-        Self { id: TypeId::of::<P>(), name: type_name::<P>, take_off: take_off::<P> }
+        Self { id: TypeId::of::<P>(), name: type_name::<P>, hide: hide::<P> }
     }
 
     /// The name of its type, without the path.
@@ -36,9 +39,11 @@ impl ProductKey {
         path.rsplit("::").next().unwrap_or(path)
     }
 
-    /// Takes the product off every entity; what was stated stays.
-    pub fn take_off(self, world: &mut World) {
-        (self.take_off)(world);
+    /// Takes the product off every entity, and says how to put it back: what a system makes without it shows whether it
+    /// reads it.
+    #[must_use]
+    pub fn hide(self, world: &mut World) -> Restore {
+        (self.hide)(world)
     }
 }
 
@@ -54,12 +59,16 @@ impl std::fmt::Debug for ProductKey {
     }
 }
 
-fn take_off<P: Product>(world: &mut World) {
-    let carriers: Vec<Entity> =
-        world.query_mut::<(Entity, &P)>().into_iter().map(|(e, _)| e).collect();
-    for entity in carriers {
-        // A product that somebody put there by hand has no inputs beside it.
-        let _ = world.remove_one::<P>(entity);
-        let _ = world.remove_one::<Made<P>>(entity);
+fn hide<P: Product>(world: &mut World) -> Restore {
+    let carriers = world.query_mut::<(Entity, &P)>().into_iter();
+    let carriers: Vec<_> = carriers.map(|(entity, product)| (entity, product.clone())).collect();
+    for (entity, _) in &carriers {
+        // It was found there a line ago.
+        let _ = world.remove_one::<P>(*entity);
     }
+    Box::new(move |world| {
+        for (entity, product) in carriers {
+            let _ = world.insert_one(entity, product);
+        }
+    })
 }

@@ -98,12 +98,16 @@ fn a_system_that_derives_an_entity_twice_is_refused() {
 }
 
 #[test]
-fn a_product_that_is_taken_off_is_made_anew() {
+fn a_product_that_is_not_there_is_made_anew_and_one_that_was_put_back_is_kept() {
     let schedule = Schedule::new(&[Job::of::<Double>()]).unwrap();
     let (mut world, watch) = (World::new(), Watch::default());
     world.spawn((Stated(4),));
     schedule.run(&mut world, &watch).unwrap();
-    ProductKey::of::<Doubled>().take_off(&mut world);
+    let restore = ProductKey::of::<Doubled>().hide(&mut world);
+    assert!(world.query::<&Doubled>().iter().next().is_none());
+    restore(&mut world);
+    assert_eq!(schedule.run(&mut world, &watch).unwrap()[0].reused, 1);
+    drop(ProductKey::of::<Doubled>().hide(&mut world));
     assert_eq!(schedule.run(&mut world, &watch).unwrap()[0].made, 1);
 }
 

@@ -1,7 +1,6 @@
 //! What is made when, from what, and what it costs.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use gelray::components::{CastsShadow, Observer, Order, Shaft, Toward, View, Voxelize};
 use gelray::components::{Light, Matte};
@@ -111,7 +110,7 @@ fn the_plan_bounds_what_a_sweep_takes() {
 }
 
 #[test]
-fn a_head_of_ct_size_is_swept_in_a_moment_and_little_memory() {
+fn the_strengths_of_a_head_of_ct_size_take_a_byte_in_three_voxels_at_the_most() {
     // Shells of a skin and a skull: 5 to 6 % of 256 × 256 × 113 voxels are interesting.
     let size = [256, 256, 113];
     let head = |v: [usize; 3]| {
@@ -123,23 +122,12 @@ fn a_head_of_ct_size_is_swept_in_a_moment_and_little_memory() {
     let interesting: usize =
         voxels.stored().map(|(_, b)| b.iter().filter(|&&a| a > 0.0).count()).sum();
     println!("{:.1} % interesting", 100.0 * interesting as f64 / (256.0 * 256.0 * 113.0));
-    println!("toward the light      ms, best of 3  bytes    with buffer: ms  bytes");
+    println!("toward the light      bytes    with buffer");
     for toward in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.4, -0.8, 0.5], [1.0, 1.0, 1.0]] {
         let mut scene = Scene::new(cubes(size), toward, CastsShadow::default(), head);
-        let timed = |scene: &mut Scene| {
-            let mut best = f64::INFINITY;
-            for _ in 0..3 {
-                // Another bias of the same size is another input: the sweep is made again.
-                scene.world.get::<&mut CastsShadow>(scene.light).unwrap().bias_voxels += 1e-12;
-                let start = Instant::now();
-                scene.sweep();
-                best = best.min(start.elapsed().as_secs_f64() * 1e3);
-            }
-            (best, scene.sweep().bytes())
-        };
-        let (time, bytes) = timed(&mut scene);
-        let (more, all) = timed(&mut scene.buffered());
-        println!("{:<21} {time:<14.1} {bytes:<8} {more:<15.1} {all}", format!("{toward:?}"));
-        assert!(bytes < 5_000_000, "{bytes}");
+        let bytes = scene.sweep().bytes();
+        let all = scene.buffered().sweep().bytes();
+        println!("{:<21} {bytes:<8} {all}", format!("{toward:?}"));
+        assert!(bytes < 5_000_000 / 2, "{bytes}");
     }
 }
