@@ -86,6 +86,7 @@ pub mod light;
 pub mod measure;
 pub mod phantom;
 pub mod polygon;
+pub mod renderer;
 pub mod scene;
 pub mod schedule;
 pub mod shared;
@@ -95,3 +96,4 @@ pub mod view;
 pub mod volume;
 
 pub use error::Error;
+pub use renderer::{Rendered, Renderer};
