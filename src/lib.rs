@@ -40,6 +40,7 @@
 //! | `phantom` | volumes and textures made by formula |
 //! | `scene` | TOML to a world of entities |
 //! | `systems` | the stages, a folder each |
+//! | `renderer` | the front door: a world in, a picture out |
 //!
 //! # The walk of a voxel
 //!
@@ -108,6 +109,7 @@ pub mod light;
 pub mod measure;
 pub mod phantom;
 pub mod polygon;
+pub mod renderer;
 pub mod scene;
 pub mod schedule;
 pub mod shared;
@@ -117,3 +119,4 @@ pub mod view;
 pub mod volume;
 
 pub use error::Error;
+pub use renderer::{Rendered, Renderer};

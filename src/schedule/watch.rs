@@ -20,6 +20,11 @@ impl Watch {
         self.stopped.store(true, Ordering::Relaxed);
     }
 
+    /// Takes a request to stop back, so that the work can be begun again.
+    pub fn go_on(&self) {
+        self.stopped.store(false, Ordering::Relaxed);
+    }
+
     /// An error if somebody asked to stop.
     pub fn check(&self) -> Result<(), Error> {
         if self.stopped.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }

@@ -18,17 +18,6 @@ fn none(faults: &[String], rule: &str) {
 }
 
 #[test]
-fn nouns_do_not_name_verbs() {
-    let allowed = |file: &File| {
-        ["src/lib.rs", "src/main.rs"].contains(&file.path.as_str()) || file.is_in("src/cli/")
-    };
-    let nouns: Vec<_> = files(&["src"]).into_iter().filter(|file| !allowed(file)).collect();
-    let faults: Vec<_> =
-        nouns.iter().flat_map(|file| file.faults(|line| line.contains("systems::"))).collect();
-    none(&faults, "in src/ only lib.rs, main.rs and cli/ may name systems");
-}
-
-#[test]
 fn no_stage_names_a_file_of_another() {
     none(
         &Imports::of_the_library().between_stages(),
