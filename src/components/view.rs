@@ -1,11 +1,11 @@
-//! `view`: an observer at infinity and the window that is seen (algorithm §1).
+//! `view`: an observer, at infinity or at a place, and the window that is seen (algorithm §1).
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Color;
 
-/// A parallel view. At azimuth 0 and elevation 0 the observer looks along +y (a patient in LPS is seen from the front).
+/// A view, parallel unless a field of view is stated. At azimuth 0 and elevation 0 the observer looks along +y (a patient in LPS is seen from the front).
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct View {
@@ -23,6 +23,14 @@ pub struct View {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub height_mm: Option<f64>,
+    /// Vertical field of view, degrees, above 0 and below 180: a perspective view. `height_mm` is what it holds at the focal
+    /// point, so that a change of it moves the eye and zooms together; absent: a parallel view.
+    ///
+    /// Highlights and head lights are those of an observer far away on the line of sight, in perspective too, so that voxels
+    /// are shaded once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 180.0))]
+    pub field_of_view: Option<f64>,
     /// Pixels across and down, each 1 to 16384.
     #[schemars(inner(range(min = 1, max = 16384)))]
     pub size: [u32; 2],
@@ -39,6 +47,7 @@ impl Default for View {
             roll: 0.0,
             focal_point: None,
             height_mm: None,
+            field_of_view: None,
             size: [380, 380],
             background: None,
         }

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use crate::view::extent::Extent;
+
 /// How far a vertex may lie from the plane of its polygon, as a part of the polygon's extent.
 const OUT_OF_PLANE: f64 = 1e-4;
 
@@ -25,6 +27,15 @@ pub struct Faces(pub Arc<Vec<Face>>);
 impl PartialEq for Faces {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Faces {
+    /// The middle of the bounding box of all vertices; `None` for no faces.
+    #[must_use]
+    pub fn middle(&self) -> Option<DVec3> {
+        let vertices = self.0.iter().flat_map(|face| face.outlines.iter().flatten().copied());
+        Extent::of(vertices).map(|extent| extent.center())
     }
 }
 

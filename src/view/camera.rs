@@ -1,26 +1,35 @@
-//! The frame of a view in the world: where rays of parallel light start and where they point (algorithm §1).
+//! The frame of a view in the world: where its rays go through the focal plane and where they point (algorithm §1).
+//!
+//! Depth is measured along `forward` in parallel and in perspective alike, from the focal plane on: what lies at one depth
+//! lies in one plane across the line of sight. In perspective the eye stands before the focal plane, at a negative depth.
 
 use glam::{DVec2, DVec3};
 
 use super::extent::Extent;
+use super::ray::Ray;
 use crate::components::View;
 
-/// The frame of a parallel view: unit vectors, the focal point, and how large a pixel is.
+/// The frame of a view: unit vectors, the focal point, how large a pixel is there, and where the eye is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// To the right in the picture.
     pub right: DVec3,
     /// Upwards in the picture.
     pub up: DVec3,
-    /// Along the rays, away from the observer.
+    /// Along the line of sight, away from the observer; along every ray of a parallel view.
     pub forward: DVec3,
     /// The world point in the middle of the window, where `t` is 0.
     pub focal: DVec3,
-    /// The side of a pixel, world units.
+    /// The side of a pixel in the focal plane, world units.
     pub pixel: f64,
     /// Pixels across and down.
     pub size: [usize; 2],
+    /// How far before the focal plane the eye is, world units; `None`: infinitely far, and rays are parallel.
+    pub eye: Option<f64>,
 }
+
+/// What lies nearer to the eye than this part of the distance from it to the focal plane is not drawn.
+const NEAREST: f64 = 1e-6;
 
 impl Camera {
     /// The frame of `view` in a scene of extent `extent`.
@@ -43,7 +52,35 @@ impl Camera {
             focal,
             pixel: height / f64::from(view.size[1]),
             size: view.size.map(|n| n as usize),
+            eye: view
+                .field_of_view
+                .map(|degrees| height / 2.0 / libm::tan(degrees.to_radians() / 2.0)),
         }
+    }
+
+    /// The ray through window position `(x, y)`, in pixels from the top left corner.
+    #[must_use]
+    #[inline]
+    pub fn ray(&self, window: DVec2) -> Ray {
+        let origin = self.origin(window);
+        let along = match self.eye {
+            None => self.forward,
+            Some(eye) => self.forward + (origin - self.focal) / eye,
+        };
+        Ray { origin, along }
+    }
+
+    /// The depth from which on things are seen; minus infinity in a parallel view.
+    #[must_use]
+    pub fn nearest(&self) -> f64 {
+        self.eye.map_or(f64::NEG_INFINITY, |eye| eye * (NEAREST - 1.0))
+    }
+
+    /// How large things in the plane of that depth are drawn, against those in the focal plane: above 0 for what is seen.
+    #[must_use]
+    #[inline]
+    pub fn magnification(&self, depth: f64) -> f64 {
+        self.eye.map_or(1.0, |eye| eye / (eye + depth))
     }
 
     /// The world point at depth 0 of the ray through window position `(x, y)`, in pixels from the top left corner.
@@ -54,13 +91,21 @@ impl Camera {
         self.focal + self.right * (x * self.pixel) + self.up * (y * self.pixel)
     }
 
-    /// Window position in pixels and depth in world units of a world point.
+    /// The depth of a world point, world units.
+    #[must_use]
+    pub fn depth(&self, point: DVec3) -> f64 {
+        self.forward.dot(point - self.focal)
+    }
+
+    /// Window position in pixels and depth in world units of a world point, which is not at the depth of the eye.
     #[must_use]
     pub fn project(&self, point: DVec3) -> (DVec2, f64) {
         let [width, height] = self.size.map(|n| n as f64);
         let from = point - self.focal;
-        let (x, y) = (self.right.dot(from) / self.pixel, self.up.dot(from) / self.pixel);
-        (DVec2::new(x + width / 2.0, height / 2.0 - y), self.forward.dot(from))
+        let depth = self.depth(point);
+        let drawn = from * self.magnification(depth);
+        let (x, y) = (self.right.dot(drawn) / self.pixel, self.up.dot(drawn) / self.pixel);
+        (DVec2::new(x + width / 2.0, height / 2.0 - y), depth)
     }
 }
 

@@ -35,6 +35,36 @@ pub fn recolor(opacity: f64, thickened: f64, ratio: f64) -> f64 {
     if opacity > 0.0 { thickened / opacity } else { ratio }
 }
 
+/// The slab in which several gels overlap, each given by its associated colour and opacity: optical depths `−ln (1 − α)`
+/// add, and colours weigh by them.
+///
+/// Opacities are in 0..=1. Of gels with opacity 1 only those are seen, alike; one without opacity adds nothing, but for its
+/// colour's limit. The parts come back sorted, so that no bit of the result depends on their order; one part is itself.
+#[must_use]
+pub fn overlap(parts: &mut [(DVec3, f64)]) -> (DVec3, f64) {
+    if let [only] = parts {
+        return *only;
+    }
+    let key = |(color, opacity): &(DVec3, f64)| [*opacity, color.x, color.y, color.z];
+    parts.sort_unstable_by(|a, b| {
+        let channels = key(a).into_iter().zip(key(b));
+        channels.fold(std::cmp::Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(&b)))
+    });
+    let opaque = parts.iter().filter(|(_, opacity)| *opacity >= 1.0).count();
+    if opaque > 0 {
+        let sum: DVec3 = parts[parts.len() - opaque..].iter().map(|(color, _)| *color).sum();
+        return (sum / opaque as f64, 1.0);
+    }
+    let (mut color, mut depth) = (DVec3::ZERO, 0.0);
+    for &(associated, opacity) in &*parts {
+        let own = -libm::log1p(-opacity);
+        color += associated * if opacity > 0.0 { own / opacity } else { 1.0 };
+        depth += own;
+    }
+    let opacity = -libm::expm1(-depth);
+    (color * if depth > 0.0 { opacity / depth } else { 1.0 }, opacity)
+}
+
 /// What a ray has gathered so far, front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gathered {
@@ -153,6 +183,40 @@ mod tests {
         let expected = thicken(faint, f64::from(layers));
         assert!((ray.opacity() - expected).abs() < 1e-9);
         assert!((ray.color.x - expected).abs() < 1e-9);
+    }
+
+    #[test]
+    fn overlapping_gels_add_their_optical_depths_and_weigh_their_colors_by_them() {
+        for (a, b) in OPACITIES.into_iter().flat_map(|a| OPACITIES.map(|b| (a, b))) {
+            let (red, blue) = (DVec3::X * a, DVec3::Z * b);
+            let (color, opacity) = overlap(&mut [(red, a), (blue, b)]);
+            assert!(
+                (opacity - (1.0 - (1.0 - a) * (1.0 - b))).abs() <= 4.0 * f64::EPSILON,
+                "{a} {b}"
+            );
+            assert_eq!(overlap(&mut [(blue, b), (red, a)]), (color, opacity));
+            assert!((color.x + color.z - opacity).abs() <= 4.0 * f64::EPSILON, "{a} {b} {color}");
+            if a == b && a > 0.0 {
+                assert_eq!(color.x, color.z);
+            }
+        }
+        assert_eq!(overlap(&mut [(DVec3::X, 1.0), (DVec3::Y * 0.5, 0.5)]), (DVec3::X, 1.0));
+    }
+
+    #[test]
+    fn a_gel_in_two_halves_of_its_optical_depth_overlaps_to_the_whole_in_any_order() {
+        for opacity in OPACITIES {
+            let color = DVec3::new(0.9, 0.4, 0.0) * opacity;
+            let parts = [0.5, 0.3, 0.2].map(|part| {
+                let thin = thicken(opacity, part);
+                (color * recolor(opacity, thin, part), thin)
+            });
+            let mut orders = [[0, 1, 2], [2, 1, 0], [1, 2, 0]].map(|order| order.map(|i| parts[i]));
+            let wholes = orders.each_mut().map(|parts| overlap(parts));
+            assert!(wholes.iter().all(|whole| *whole == wholes[0]));
+            assert!((wholes[0].1 - opacity).abs() <= 4.0 * f64::EPSILON, "{opacity}");
+            assert!(wholes[0].0.distance(color) <= 8.0 * f64::EPSILON, "{opacity}");
+        }
     }
 
     #[test]

@@ -5,5 +5,6 @@ pub mod composite;
 pub mod extent;
 pub mod observer;
 pub mod picture;
+pub mod ray;
 pub mod samples;
 pub mod walk;

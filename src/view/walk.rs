@@ -1,35 +1,53 @@
 //! A ray through the voxels of a grid: samples at one global phase, in fixed-point voxel indices (algorithm §1).
 
-use glam::{DVec3, I64Vec3};
+use glam::{DAffine3, DVec3, I64Vec3};
 
 use super::camera::Camera;
+use super::ray::Ray;
 use crate::volume::grid::Grid;
 
 /// Bits of a voxel index behind the point.
 pub const FRACTION_BITS: u32 = 40;
 const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
 
-/// How the samples of every ray of a view walk through a grid: sample `k` lies at depth `(k + 1/2) Δ`.
+/// How the samples of the rays of a view walk through a grid: sample `k` lies at depth `(k + 1/2) Δ`.
 ///
 /// Positions are fixed-point voxel indices, so that going on by n steps is exact however the n are grouped: stepping
 /// over empty space lands on the very samples that walking would have met.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Walk {
-    world_to_index: glam::DAffine3,
+    world_to_index: DAffine3,
     /// Δ, world units.
     distance: f64,
-    forward: DVec3,
     last: I64Vec3,
-    /// Voxel indices a step, fixed-point.
+    /// The stride that all rays share, if they are parallel.
+    parallel: Option<Stride>,
+    /// The number of the slab that the eye is in: none before it is seen.
+    nearest: i64,
+}
+
+/// The way from a sample of a ray to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stride {
+    /// Voxel indices, fixed-point.
     pub step: I64Vec3,
-    /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the rays do not move on.
+    /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the ray does not move on.
     pub per_step: [f64; 3],
     /// Whether a step is half a voxel or more: then a cell of eight voxels is not worth a leap.
     pub is_coarse: bool,
 }
 
+impl Stride {
+    fn new(step: DVec3) -> Self {
+        let is_coarse = step.abs().max_element() >= 0.5;
+        let step = step.to_array().map(|s| (s * UNIT).round() as i64);
+        let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
+        Self { step: I64Vec3::from(step), per_step, is_coarse }
+    }
+}
+
 /// The samples of one ray that lie in the domain: numbers `first..end`, and where the first of them is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Samples {
     /// Number of the first sample.
     pub first: i64,
@@ -37,6 +55,8 @@ pub struct Samples {
     pub end: i64,
     /// Fixed-point voxel index of sample `first`.
     pub at: I64Vec3,
+    /// From each sample to the next.
+    pub stride: Stride,
 }
 
 impl Walk {
@@ -52,26 +72,25 @@ impl Walk {
                 "a sample distance of {distance} is {most:.1e} voxels; choose `sampling.distance_mm` near the voxel spacing"
             ));
         }
-        let step = step.to_array().map(|s| (s * UNIT).round() as i64);
-        let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
         let last = I64Vec3::from(grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS));
-        let is_coarse = most >= 0.5;
-        let forward = camera.forward;
-        let step = I64Vec3::from(step);
-        Ok(Self { world_to_index, distance, forward, last, step, per_step, is_coarse })
+        let parallel = camera.eye.is_none().then(|| Stride::new(step));
+        let nearest = camera.eye.map_or(i64::MIN, |eye| (-eye / distance).floor() as i64);
+        Ok(Self { world_to_index, distance, last, parallel, nearest })
     }
 
-    /// The samples in the domain of the ray through world point `origin` at depth 0; `None` if there are none.
+    /// The samples in the domain of a ray, from the slab on that the eye is in; `None` if there are none.
     #[must_use]
-    pub fn enter(&self, origin: DVec3) -> Option<Samples> {
-        let start =
-            self.world_to_index.transform_point3(origin + self.forward * (0.5 * self.distance));
+    pub fn enter(&self, ray: &Ray) -> Option<Samples> {
+        let stride = self.parallel.unwrap_or_else(|| {
+            Stride::new(self.world_to_index.transform_vector3(ray.along * self.distance))
+        });
+        let start = self.world_to_index.transform_point3(ray.at(0.5 * self.distance));
         // The interval in steps from `start`, in floating point, is widened by a step and then cut exactly.
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
-            let (from, step) = (start[axis], self.step[axis] as f64 / UNIT);
+            let (from, step) = (start[axis], stride.step[axis] as f64 / UNIT);
             let last = (self.last[axis] >> FRACTION_BITS) as f64;
-            if self.step[axis] == 0 {
+            if stride.step[axis] == 0 {
                 if !(0.0..=last).contains(&from) {
                     return None;
                 }
@@ -84,22 +103,43 @@ impl Walk {
         if low > high + 2.0 || low.abs() > 1e15 || high.abs() > 1e15 {
             return None;
         }
-        self.cut(start, low.floor() as i64 - 1, high.ceil() as i64 + 2)
+        let samples = self.cut(start, stride, low.floor() as i64 - 1, high.ceil() as i64 + 2)?;
+        samples.from(self.nearest)
+    }
+
+    /// How long a ray's way through a slab is, against that of a ray on the line of sight: 1 or more, exactly 1 for
+    /// parallel rays.
+    #[must_use]
+    pub fn stretch(&self, ray: &Ray) -> f64 {
+        if self.parallel.is_some() { 1.0 } else { ray.along.length() }
     }
 
     /// Exactly the samples of `first..end` that are inside, positions counted from the first of them.
-    fn cut(&self, start: DVec3, first: i64, end: i64) -> Option<Samples> {
+    fn cut(&self, start: DVec3, stride: Stride, first: i64, end: i64) -> Option<Samples> {
+        let Stride { step, .. } = stride;
         let middle = first + (end - first) / 2;
-        let place = start + (self.step.as_dvec3() / UNIT) * middle as f64;
+        let place = start + (step.as_dvec3() / UNIT) * middle as f64;
         let place = (place * UNIT).round().as_i64vec3();
-        let at = |k: i64| place + self.step * (k - middle);
+        let at = |k: i64| place + step * (k - middle);
         let inside = |k: i64| {
             let at = at(k);
             at.cmpge(I64Vec3::ZERO).all() && at.cmple(self.last).all()
         };
         let first = (first..end.min(first + 6)).find(|&k| inside(k))?;
         let last = (first.max(end - 6)..end).rev().find(|&k| inside(k))?;
-        Some(Samples { first, end: last + 1, at: at(first) })
+        Some(Samples { first, end: last + 1, at: at(first), stride })
+    }
+}
+
+impl Samples {
+    /// Those of number `first` and above; `None` if there are none.
+    #[must_use]
+    pub fn from(self, first: i64) -> Option<Self> {
+        if first <= self.first {
+            return Some(self);
+        }
+        let at = self.at + self.stride.step * first.min(self.end).saturating_sub(self.first);
+        (first < self.end).then_some(Self { first, at, ..self })
     }
 }
 

@@ -8,4 +8,4 @@ pub mod grid;
 pub mod layer;
 pub mod painting;
 pub mod pyramid;
-pub mod seen;
+pub mod scene_volumes;

@@ -81,6 +81,14 @@ impl<'a> PyramidSlices<'a> {
         &self.cells[brick as usize]
     }
 
+    /// Whether a cell, counted from the volume's first, is interesting; `brick` is the stored brick around it, or [`EMPTY`].
+    #[must_use]
+    #[inline]
+    pub fn is_interesting(self, brick: u32, [x, y, z]: [usize; 3]) -> bool {
+        let cells = self.cells.get(brick as usize);
+        cells.is_some_and(|cells| cells[z % CELLS] >> (y % CELLS * CELLS + x % CELLS) & 1 == 1)
+    }
+
     /// For the brick at `entry` of the gel's table, which is not stored: the highest empty level around it, at least 3.
     #[must_use]
     #[inline]

@@ -12,70 +12,11 @@ use rayon::prelude::*;
 use super::band::{Band, cut};
 use super::beams::{Beams, SIDE};
 use super::level::Level;
+use super::targets::{Caster, Outlines, RayColors, Target};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::schedule::Watch;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
-
-/// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Ray {
-    /// C.
-    pub full: [f32; 4],
-    /// C_A.
-    pub attenuated: [f32; 4],
-    /// C_G.
-    pub geometric: [f32; 4],
-}
-
-/// Where a ray is cast.
-#[derive(Debug, Clone, Copy)]
-pub struct Aim {
-    /// The number of its beam.
-    pub beam: usize,
-    /// Its window position, pixels.
-    pub window: DVec2,
-    /// The distance to the next ray of its level, in positions: what it stands for.
-    pub step: usize,
-}
-
-/// Casts rays.
-pub trait Caster: Sync {
-    /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
-    type Scratch: Default;
-    /// Casts the rays at `aims`, neighbours in the picture, and puts what they saw into `rays`, which is as long.
-    fn cast(
-        &self,
-        aims: &[Aim],
-        rays: &mut [Ray],
-        scratch: &mut Self::Scratch,
-        counts: &mut Counts,
-    );
-}
-
-/// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
-pub struct Outlines {
-    /// Side of the flagged squares, in positions.
-    pub side: usize,
-    /// Flagged squares across.
-    pub across: usize,
-    /// The flags, x fastest.
-    pub crossed: Vec<bool>,
-}
-
-impl Outlines {
-    /// Whether an outline crosses the region of `side` positions from `(i, j)` on.
-    fn cross(&self, i: usize, j: usize, side: usize) -> bool {
-        let cells = (side / self.side).max(1);
-        let down = self.crossed.len() / self.across;
-        (j / self.side..(j / self.side + cells).min(down)).any(|y| {
-            let first = i / self.side;
-            self.crossed
-                [y * self.across + first..y * self.across + (first + cells).min(self.across)]
-                .contains(&true)
-        })
-    }
-}
 
 /// The sample array while it is refined.
 pub struct Refinement<'a, C> {
@@ -239,20 +180,20 @@ fn cast_band<C: Caster>(
 ) {
     let mut scratch = C::Scratch::default();
     let mut positions = Vec::with_capacity(SIDE * SIDE);
-    let (mut aims, mut rays) = (Vec::with_capacity(SIDE * SIDE), Vec::with_capacity(SIDE * SIDE));
+    let (mut targets, mut rays) = (Vec::with_capacity(SIDE * SIDE), Vec::with_capacity(SIDE * SIDE));
     let shift = step.trailing_zeros();
     for x in 0..beams.counts[0] {
         let beam = band.number * beams.counts[0] + x;
         band.positions(&beams.layout, x, step, &mut positions);
         positions.retain(|[i, j]| wanted(i >> shift, j >> shift));
-        aims.clear();
-        aims.extend(positions.iter().map(|&[i, j]| {
+        targets.clear();
+        targets.extend(positions.iter().map(|&[i, j]| {
             let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
-            Aim { beam, window, step }
+            Target { beam, window, step }
         }));
         rays.clear();
-        rays.resize(aims.len(), Ray::default());
-        caster.cast(&aims, &mut rays, &mut scratch, &mut band.counts);
+        rays.resize(targets.len(), RayColors::default());
+        caster.cast(&targets, &mut rays, &mut scratch, &mut band.counts);
         for (&[i, j], ray) in positions.iter().zip(&rays) {
             band.write(&beams.layout, i, j, ray);
         }

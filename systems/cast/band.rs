@@ -1,6 +1,6 @@
 //! Bands: the rows of the sample array that one row of beams owns, so that bands are written side by side.
 
-use super::adaptive::Ray;
+use super::targets::RayColors;
 use super::beams::{Beams, SIDE};
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
@@ -81,7 +81,7 @@ impl Band<'_> {
     }
 
     /// Keeps what a ray at a position of the band saw.
-    pub fn write(&mut self, layout: &Layout, i: usize, j: usize, ray: &Ray) {
+    pub fn write(&mut self, layout: &Layout, i: usize, j: usize, ray: &RayColors) {
         let (within, block) = layout.place(i, j - self.number * SIDE);
         for (part, color) in self.colors.iter_mut().zip([ray.full, ray.attenuated, ray.geometric]) {
             if within == 0 {

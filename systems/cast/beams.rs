@@ -112,29 +112,60 @@ fn occupied_halves(cells: &[u64; CELLS]) -> impl Iterator<Item = [usize; 3]> {
 }
 
 /// Bounding boxes in window coordinates (pixels) and depth (world units) of boxes in index space.
-struct BoxOf {
-    origin: DVec3,
-    axes: [DVec3; 3],
+enum BoxOf<'a> {
+    /// Rays are parallel: what a voxel index adds to window and depth is the same everywhere.
+    Parallel { origin: DVec3, axes: [DVec3; 3] },
+    /// Corners are projected one by one.
+    Perspective { grid: &'a Grid, camera: &'a Camera },
 }
 
-impl BoxOf {
-    fn new(grid: &Grid, camera: &Camera) -> Self {
+impl<'a> BoxOf<'a> {
+    fn new(grid: &'a Grid, camera: &'a Camera) -> Self {
+        if camera.eye.is_some() {
+            return Self::Perspective { grid, camera };
+        }
         let seen = |point: DVec3| {
             let (window, depth) = camera.project(grid.index_to_world.transform_point3(point));
             window.extend(depth)
         };
         let origin = seen(DVec3::ZERO);
-        Self { origin, axes: DVec3::AXES.map(|axis| seen(axis) - origin) }
+        Self::Parallel { origin, axes: DVec3::AXES.map(|axis| seen(axis) - origin) }
     }
 
     /// The box of 4³ cells from `first` on, cut off where the grid ends.
     fn cells(&self, first: [usize; 3], size: [usize; 3]) -> (DVec3, DVec3) {
-        let (mut low, mut high) = (self.origin, self.origin);
-        for ((axis, first), n) in self.axes.iter().zip(first).zip(size) {
-            let ends = [*axis * first as f64, *axis * (first + HALF).min(n - 1) as f64];
-            low += ends[0].min(ends[1]);
-            high += ends[0].max(ends[1]);
+        let end: [usize; 3] = std::array::from_fn(|axis| (first[axis] + HALF).min(size[axis] - 1));
+        let ends = [first, end].map(|corner| DVec3::from(corner.map(|n| n as f64)));
+        match self {
+            Self::Parallel { origin, axes } => {
+                let (mut low, mut high) = (*origin, *origin);
+                for (axis, along) in axes.iter().enumerate() {
+                    let ends = [*along * ends[0][axis], *along * ends[1][axis]];
+                    low += ends[0].min(ends[1]);
+                    high += ends[0].max(ends[1]);
+                }
+                (low, high)
+            }
+            Self::Perspective { grid, camera } => perspective_box(grid, camera, ends),
         }
-        (low, high)
     }
+}
+
+/// The box of a block of cells between two corners in index space, of which a part may lie behind the eye: then it may be
+/// seen anywhere.
+fn perspective_box(grid: &Grid, camera: &Camera, ends: [DVec3; 2]) -> (DVec3, DVec3) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for corner in 0..8_usize {
+        let index = DVec3::from(std::array::from_fn(|axis| ends[corner >> axis & 1][axis]));
+        let world = grid.index_to_world.transform_point3(index);
+        let depth = camera.depth(world);
+        let window = if depth > camera.nearest() {
+            [camera.project(world).0; 2]
+        } else {
+            [DVec2::NEG_INFINITY, DVec2::INFINITY]
+        };
+        low = low.min(window[0].extend(depth));
+        high = high.max(window[1].extend(depth));
+    }
+    (low, high)
 }

@@ -2,9 +2,9 @@
 
 use hecs::{Entity, World};
 
-use super::shaft;
+use super::shaft::StatedShaft;
 use crate::components::{
-    DepthCue, Light, OpacityUnit, Order, Sampling, Shaft, Surface, View, Voxelize,
+    DepthCue, Light, Order, Sampling, Shaft, Surface, View, Voxelize,
 };
 use crate::light::shading::Lamps;
 use crate::light::strength::LightStrength;
@@ -16,6 +16,7 @@ use crate::view::extent::Extent;
 use crate::volume::gel::Gel;
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;
+use crate::volume::scene_volumes::{SceneVolume, around, volumes};
 
 /// What the rays of a view meet.
 #[derive(PartialEq)]
@@ -24,25 +25,28 @@ pub struct Inputs {
     pub sampling: Sampling,
     pub extent: Extent,
     pub cue: Option<DepthCue>,
-    pub volume: Option<Medium>,
-    pub polygons: Vec<Shown>,
+    /// In the order of the scene.
+    pub volumes: Vec<PlacedGel>,
+    pub polygons: Vec<TracedPolygons>,
     pub lamps: Lamps,
     /// β of each light of `lamps` that casts a shadow.
     pub strengths: Vec<Option<LightStrength>>,
-    pub shafts: Vec<shaft::Stated>,
+    pub shafts: Vec<StatedShaft>,
 }
 
 /// Faces that stay polygons, and how they look.
 #[derive(PartialEq)]
-pub struct Shown {
+pub struct TracedPolygons {
     pub faces: Faces,
     pub surface: Surface,
     pub textured: Option<TexturedBy>,
+    /// The grid of the volume that they cast their shadows in.
+    pub grid: Option<Grid>,
 }
 
-/// The gel and where it is.
+/// A volume's gel and where it is.
 #[derive(PartialEq)]
-pub struct Medium {
+pub struct PlacedGel {
     pub grid: Grid,
     pub gel: Gel,
     pub pyramid: Option<Pyramid>,
@@ -64,7 +68,7 @@ impl Inputs {
             sampling: sampling.clone(),
             extent,
             cue,
-            volume: medium(world),
+            volumes: gels(world),
             strengths: strengths(world, &lamps),
             polygons,
             lamps,
@@ -74,15 +78,19 @@ impl Inputs {
 }
 
 /// The polygons that stay polygons, in the order of the scene.
-fn hybrid_polygons(world: &World) -> Vec<Shown> {
+fn hybrid_polygons(world: &World) -> Vec<TracedPolygons> {
+    let volumes = volumes(world);
     let mut query =
         world.query::<(&Order, &Faces, &Surface, Option<&TexturedBy>)>().without::<&Voxelize>();
     let mut polygons: Vec<_> = query.iter().collect();
     polygons.sort_by_key(|(order, ..)| **order);
-    let shown = |(_, faces, surface, textured): (_, &Faces, &Surface, Option<&TexturedBy>)| Shown {
-        faces: faces.clone(),
-        surface: surface.clone(),
-        textured: textured.cloned(),
+    let shown = |(_, faces, surface, textured): (_, &Faces, &Surface, Option<&TexturedBy>)| {
+        TracedPolygons {
+            faces: faces.clone(),
+            surface: surface.clone(),
+            textured: textured.cloned(),
+            grid: around(&volumes, faces.middle()).map(|volume| volume.grid),
+        }
     };
     polygons.into_iter().map(shown).collect()
 }
@@ -94,12 +102,12 @@ fn strengths(world: &World, lamps: &Lamps) -> Vec<Option<LightStrength>> {
 }
 
 /// The shafts of light, in the order of the scene.
-fn shafts(world: &World) -> Vec<shaft::Stated> {
+fn shafts(world: &World) -> Vec<StatedShaft> {
     type Beam<'a> = (&'a Shaft, &'a Light, Option<&'a ProjectedBy>, Option<&'a LightStrength>);
     let mut query = world.query::<(&Order, Beam<'_>)>();
     let mut shafts: Vec<_> = query.iter().collect();
     shafts.sort_by_key(|(order, _)| **order);
-    let stated = |(_, (shaft, light, projected, strength)): (_, Beam<'_>)| shaft::Stated {
+    let stated = |(_, (shaft, light, projected, strength)): (_, Beam<'_>)| StatedShaft {
         shaft: *shaft,
         light: light.clone(),
         projected: projected.cloned(),
@@ -108,13 +116,12 @@ fn shafts(world: &World) -> Vec<shaft::Stated> {
     shafts.into_iter().map(stated).collect()
 }
 
-/// The gel of the scene's volume.
-fn medium(world: &World) -> Option<Medium> {
-    let mut query = world.query::<(&Grid, &Gel, Option<&Pyramid>, &OpacityUnit)>();
-    query.iter().next().map(|(grid, gel, pyramid, unit)| Medium {
-        grid: *grid,
-        gel: gel.clone(),
-        pyramid: pyramid.cloned(),
-        unit: unit.0,
-    })
+/// The gels of the scene's volumes, in its order.
+fn gels(world: &World) -> Vec<PlacedGel> {
+    let gel = |SceneVolume { entity, grid, unit, .. }| {
+        let gel = (*world.get::<&Gel>(entity).ok()?).clone();
+        let pyramid = world.get::<&Pyramid>(entity).ok().map(|pyramid| (*pyramid).clone());
+        Some(PlacedGel { grid, gel, pyramid, unit })
+    };
+    volumes(world).into_iter().filter_map(gel).collect()
 }

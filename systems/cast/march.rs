@@ -1,11 +1,15 @@
-//! A ray through gel and polygons: slabs, split into slivers where polygons cross them (paper §2, equations 2a and 2b).
+//! A packet of rays through gel and polygons: slabs, split into slivers where polygons cross them (paper §2, equations 2a
+//! and 2b).
+//!
+//! The rays go side by side from sample to sample: all have theirs at the same depths. Where none meets gel or a polygon
+//! they go on together, and each stops on its own. What a ray gathers is what it would gather alone, in the same order.
 
 use glam::DVec3;
 
-use super::volume::{Cursor, Volume};
+use super::lanes::{LANES, Lanes, each};
+use super::media::Media;
 use crate::view::composite::{Gathered, recolor, thicken};
 use crate::view::samples::Counts;
-use crate::volume::gel::Texel;
 
 /// A polygon that a ray meets, shaded.
 #[derive(Debug, Clone, Copy)]
@@ -29,48 +33,82 @@ pub struct Hit {
     pub face: u32,
 }
 
-/// The three colours of a ray (paper §2).
-pub struct Colors {
+/// What all rays of a view have in common.
+#[derive(Debug, Clone, Copy)]
+pub struct Slabs {
+    /// Δ, world units.
+    pub distance: f64,
+    /// A ray stops when no more than this comes through of what is behind.
+    pub stop: f64,
+    /// The depth of the eye in a perspective view: the slab that it is in counts from there on.
+    pub eye: f64,
+}
+
+impl Slabs {
+    /// The number of the slab around a depth.
+    fn number(&self, depth: f64) -> i64 {
+        (depth / self.distance).floor() as i64
+    }
+
+    /// How far into slab `k` a depth is, 0..=1.
+    fn place(&self, k: i64, depth: f64) -> f64 {
+        (depth / self.distance - k as f64).clamp(0.0, 1.0)
+    }
+}
+
+/// The state of C and C_A of one ray (paper §2).
+#[derive(Debug, Clone, Copy)]
+pub struct Gathering {
     /// C: volume and polygons.
     pub full: Gathered,
-    /// C_A: polygons attenuated by the volume; what they cover is kept beside, as associated RGBA.
-    pub attenuated: [f32; 4],
-}
-
-/// The state of C and C_A on their way through a slab.
-struct Pair<'c> {
-    full: Gathered,
+    /// C_A: polygons attenuated by the volume.
     attenuated: Gathered,
+    /// How much of the ray polygons cover in C_A.
     covered: f64,
-    stop: f64,
-    counts: &'c mut Counts,
+    /// Those of the packet's hits that the ray has not come to yet.
+    left: [u32; 2],
 }
 
-impl<'c> Pair<'c> {
-    fn new(stop: f64, counts: &'c mut Counts) -> Self {
+impl Gathering {
+    /// Nothing gathered yet by a ray that is to meet the hits numbered `[first, end)`.
+    pub fn new(hits: [u32; 2]) -> Self {
         let (full, attenuated) = (Gathered::NOTHING, Gathered::NOTHING);
-        Self { full, attenuated, covered: 0.0, stop, counts }
+        Self { full, attenuated, covered: 0.0, left: hits }
     }
 
-    fn colors(&self) -> Colors {
+    /// Those of the packet's hits that the ray has not come to yet, `[first, end)`.
+    pub fn hits(&self) -> [u32; 2] {
+        self.left
+    }
+
+    /// C_A; what polygons cover is kept beside, as associated RGBA.
+    pub fn attenuated(&self) -> [f32; 4] {
         let [r, g, b] = self.attenuated.color.to_array();
-        Colors { full: self.full, attenuated: [r as f32, g as f32, b as f32, self.covered as f32] }
+        [r as f32, g as f32, b as f32, self.covered as f32]
     }
 
-    fn open(&self) -> bool {
-        self.full.through > self.stop || self.attenuated.through > self.stop
+    /// Whether polygons are still to come: only then does C_A go on.
+    fn has_hits(&self) -> bool {
+        self.left[0] < self.left[1]
     }
 
-    fn gel(&mut self, color: DVec3, opacity: f64) {
-        if self.full.through > self.stop {
+    fn is_open(&self, stop: f64) -> bool {
+        self.full.through > stop || (self.has_hits() && self.attenuated.through > stop)
+    }
+
+    #[inline]
+    fn gel(&mut self, color: DVec3, opacity: f64, stop: f64) {
+        if self.full.through > stop {
             self.full.under(color, opacity);
         }
-        self.attenuated.under(DVec3::ZERO, opacity);
+        if self.has_hits() {
+            self.attenuated.under(DVec3::ZERO, opacity);
+        }
     }
 
-    fn polygon(&mut self, met: &Shaded) {
-        if self.full.through > self.stop {
-            self.counts.polygon_hits += 1;
+    fn polygon(&mut self, met: &Shaded, stop: f64, counts: &mut Counts) {
+        if self.full.through > stop {
+            counts.polygon_hits += 1;
             self.full.under(met.color, met.opacity);
         }
         self.covered += self.attenuated.through * met.plain_opacity;
@@ -78,78 +116,122 @@ impl<'c> Pair<'c> {
     }
 }
 
-impl<T: Texel> Volume<'_, T> {
-    /// A ray that meets polygons at `hits`, in the order of their depths: C and C_A. `shade` shades a hit, and is
-    /// called for those alone that the ray reaches.
-    pub fn march_through(
+/// Takes the rays of a packet, which has entered `media`, through it and the polygons at `hits`; each ray's own are in the
+/// order of their depths. `shade` shades a hit of a ray, and is called for those alone that the ray reaches.
+pub fn march<M: Media>(
+    (media, entered, [first, end]): (&M, &mut M::Entered, [i64; 2]),
+    slabs: &Slabs,
+    hits: &[Hit],
+    shade: impl Fn(&Hit, usize) -> Shaded,
+    (lanes, gathered): (Lanes, &mut [Gathering; LANES]),
+    counts: &mut Counts,
+) {
+    let eye = slabs.number(slabs.eye);
+    let mut next = Next::new(slabs, hits, lanes, gathered);
+    let (mut open, mut k, mut gel) = (lanes, i64::MIN, i64::MIN);
+    while open != 0 {
+        if gel < k || gel == i64::MIN {
+            let found = media.seek(entered, k.max(first), counts);
+            gel = if found < end { found } else { i64::MAX };
+        }
+        k = gel.min(next.least);
+        if k == i64::MAX {
+            break;
+        }
+        let met = if k == gel { media.meet(entered, k, open, counts) } else { 0 };
+        let cut = if k == eye { open } else { next.at(k, open) };
+        for lane in each(met & !cut) {
+            let (color, opacity) = media.slab(entered, k, lane);
+            let ray = &mut gathered[lane];
+            ray.gel(color, opacity, slabs.stop);
+            if !ray.is_open(slabs.stop) {
+                open &= !(1 << lane);
+            }
+        }
+        for lane in each(cut) {
+            let gel = (met >> lane & 1 == 1).then(|| media.slab(entered, k, lane));
+            let slab = Slab { k, gel, from: slabs.place(k, slabs.eye) };
+            slab.split(slabs, hits, |hit| shade(hit, lane), &mut gathered[lane], counts);
+            if !gathered[lane].is_open(slabs.stop) {
+                open &= !(1 << lane);
+            }
+        }
+        // Also where those that were to meet a polygon here have stopped before it.
+        if cut != 0 || k >= next.least {
+            next = Next::new(slabs, hits, open, gathered);
+        }
+        k += 1;
+    }
+}
+
+/// The slabs in which the rays of a packet meet their next polygons.
+struct Next {
+    slabs: [i64; LANES],
+    least: i64,
+}
+
+impl Next {
+    fn new(slabs: &Slabs, hits: &[Hit], lanes: Lanes, gathered: &[Gathering; LANES]) -> Self {
+        let mut next = Self { slabs: [i64::MAX; LANES], least: i64::MAX };
+        for lane in each(lanes).filter(|&lane| gathered[lane].has_hits()) {
+            let slab = slabs.number(hits[gathered[lane].left[0] as usize].depth);
+            next.slabs[lane] = slab;
+            next.least = next.least.min(slab);
+        }
+        next
+    }
+
+    /// Which of `lanes` meet a polygon in slab `k`.
+    fn at(&self, k: i64, lanes: Lanes) -> Lanes {
+        if k < self.least {
+            return 0;
+        }
+        let here = |lane: &usize| self.slabs[*lane] == k;
+        each(lanes).filter(here).fold(0, |set, lane| set | 1 << lane)
+    }
+}
+
+/// A slab of one ray that is cut.
+struct Slab {
+    k: i64,
+    /// Associated colour and opacity of the whole of it, where there is gel.
+    gel: Option<(DVec3, f64)>,
+    /// Where in it the ray begins, 0..1.
+    from: f64,
+}
+
+impl Slab {
+    /// The slab cut at the depths of the hits in it: sliver, polygon, sliver, polygon, …, sliver.
+    fn split(
         &self,
-        cursor: &mut Cursor,
+        slabs: &Slabs,
         hits: &[Hit],
         shade: impl Fn(&Hit) -> Shaded,
-        stop: f64,
+        ray: &mut Gathering,
         counts: &mut Counts,
-    ) -> Colors {
-        let mut pair = Pair::new(stop, counts);
-        let mut left = hits;
-        while let Some(hit) = left.first().filter(|_| pair.open()) {
-            let k = (hit.depth / self.distance).floor() as i64;
-            self.gather_pair(cursor, k, &mut pair);
-            let here = left
-                .iter()
-                .take_while(|hit| (hit.depth / self.distance).floor() as i64 <= k)
-                .count();
-            let (split, rest) = left.split_at(here);
-            self.split_slab(cursor, k, split, &shade, &mut pair);
-            left = rest;
-        }
-        self.gather(cursor, i64::MAX, stop, &mut pair.full, pair.counts);
-        pair.colors()
-    }
-
-    fn gather_pair(&self, cursor: &mut Cursor, until: i64, pair: &mut Pair<'_>) {
-        if pair.open() {
-            let mut counts = Counts::default();
-            self.visit(cursor, until, &mut counts, |sample| {
-                let (color, opacity) = self.slab(sample);
-                pair.gel(color, opacity);
-                pair.open()
-            });
-            *pair.counts += counts;
-        }
-    }
-
-    /// Slab `k`, cut at the depths of `hits`: sliver, polygon, sliver, polygon, …, sliver.
-    fn split_slab(
-        &self,
-        cursor: &mut Cursor,
-        k: i64,
-        hits: &[Hit],
-        shade: &impl Fn(&Hit) -> Shaded,
-        pair: &mut Pair<'_>,
     ) {
-        let mut gel = None;
-        self.visit(cursor, k.saturating_add(1), pair.counts, |sample| {
-            gel = Some(sample);
-            false
-        });
-        let sliver = |pair: &mut Pair<'_>, part: f64| {
-            let Some(sample) = gel.filter(|_| part > 0.0) else { return };
-            let (color, opacity) = (sample.truncate().as_dvec3(), f64::from(sample.w).min(1.0));
-            let thick = thicken(opacity, part * self.ratio);
-            pair.counts.slivers += 1;
-            pair.gel(color * recolor(opacity, thick, part * self.ratio), thick);
+        let sliver = |ray: &mut Gathering, part: f64, counts: &mut Counts| {
+            let Some((color, opacity)) = self.gel.filter(|_| part > 0.0) else { return };
+            let opacity = opacity.min(1.0);
+            let thick = thicken(opacity, part);
+            counts.slivers += 1;
+            ray.gel(color * recolor(opacity, thick, part), thick, slabs.stop);
         };
-        let mut passed = 0.0;
-        for hit in hits {
-            if !pair.open() {
-                return;
+        let mut passed = self.from;
+        while ray.has_hits() {
+            let hit = &hits[ray.left[0] as usize];
+            if slabs.number(hit.depth) > self.k || !ray.is_open(slabs.stop) {
+                break;
             }
-            let place = (hit.depth / self.distance - k as f64).clamp(passed, 1.0);
-            sliver(pair, place - passed);
+            let place = slabs.place(self.k, hit.depth).max(passed);
+            sliver(ray, place - passed, counts);
             passed = place;
-            pair.polygon(&shade(hit));
+            ray.polygon(&shade(hit), slabs.stop, counts);
+            ray.left[0] += 1;
         }
-        sliver(pair, 1.0 - passed);
+        if ray.is_open(slabs.stop) {
+            sliver(ray, 1.0 - passed, counts);
+        }
     }
 }
 
@@ -165,21 +247,4 @@ pub fn geometric(hits: &[Hit], plain: impl Fn(&Hit) -> (DVec3, f64), stop: f64) 
         ray.under(color, opacity);
     }
     ray.rgba(0.0)
-}
-
-/// A ray through polygons where there is no volume: C, which C_A equals but for textures and shadows.
-pub fn polygons_alone(
-    hits: &[Hit],
-    shade: impl Fn(&Hit) -> Shaded,
-    stop: f64,
-    counts: &mut Counts,
-) -> Colors {
-    let mut pair = Pair::new(stop, counts);
-    for hit in hits {
-        if !pair.open() {
-            break;
-        }
-        pair.polygon(&shade(hit));
-    }
-    pair.colors()
 }

@@ -1,24 +1,32 @@
 //! Casting rays: the hybrid ray tracer of the paper's §2 with the optimisations of its §6.
 //!
-//! `inputs` gathers what a view's rays may meet, `mod` gives each beam of rays what it needs of that, `beams` says where a beam can meet anything,
-//! `adaptive` says where rays are cast, `march` takes a ray through slabs and slivers, `volume` finds the samples on it,
-//! `polygons` says what it meets, and `receiving` where the shadows on that are read.
+//! `inputs` gathers what a view's rays may meet, and this file makes of it what they need. `adaptive` says where rays are
+//! cast, `caster` takes them in packets of sixteen, `march` takes a packet through slabs and slivers. `media` is the gel as
+//! a packet meets it: nothing, one `medium`, or `several` that overlap; `beams` says where it can meet any. `polygons` says
+//! which faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
 
 mod adaptive;
+mod appearance;
 mod band;
 mod beams;
+mod caster;
+mod cue;
 mod inputs;
+mod lanes;
 mod level;
 mod march;
+mod media;
+mod medium;
 mod polygons;
+mod projected;
 mod receiving;
+mod several;
 mod shaft;
+mod targets;
 mod texture;
-mod volume;
 
 use std::sync::Arc;
 
-use glam::DVec2;
 use hecs::{Entity, World};
 
 use crate::components::{DepthCue, Sampling, View};
@@ -27,18 +35,24 @@ use crate::light::strength::LightStrength;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
-use crate::view::samples::{Counts, Layout, SampleArray, Samples};
+use crate::view::samples::{Layout, SampleArray, Samples};
 use crate::view::walk::Walk;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
 use crate::volume::pyramid::Pyramid;
-use adaptive::{Aim, Caster, Ray, Refinement};
-use beams::{Beams, Occupied};
-use inputs::{Inputs, Medium};
-use march::Hit;
-use polygons::{Look, Polygons, Seen};
+use adaptive::Refinement;
+use appearance::Appearance;
+use beams::Beams;
+use caster::BeamCaster;
+use cue::Cue;
+use inputs::{Inputs, PlacedGel};
+use march::Slabs;
+use media::{Media, Nothing};
+use medium::Medium;
+use polygons::Polygons;
+use projected::ProjectedFace;
+use several::{AnyMedium, Several};
 use shaft::Dust;
-use texture::Laid;
-use volume::{Cue, Cursor, Volume};
+use texture::FaceTexture;
 
 /// Casts the rays of every view.
 pub struct Cast;
@@ -76,98 +90,146 @@ fn layout(view: &View, sampling: &Sampling) -> Layout {
     Layout::new(size, sampling.coarsest as usize, sampling.pixel_filter.reach())
 }
 
+/// Δ: as stated, else the smallest spacing of any volume; without a volume it makes no difference.
+fn distance(inputs: &Inputs) -> f64 {
+    let spacings = inputs.volumes.iter().map(|volume| volume.grid.spacing().min_element());
+    let smallest = spacings.fold(f64::INFINITY, f64::min);
+    let smallest = if smallest.is_finite() { smallest } else { inputs.extent.radius() };
+    inputs.sampling.distance_mm.unwrap_or(smallest)
+}
+
 fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Error> {
     let layout = layout(&inputs.view, &inputs.sampling);
     let beams = Beams::new(layout);
     let cue = inputs.cue.map(|cue| {
-        let near = camera.project(inputs.extent.center()).1 - inputs.extent.radius();
+        let near = camera.depth(inputs.extent.center()) - inputs.extent.radius();
         Cue { k1: cue.k1, k2: cue.k2, near }
     });
-    let seen = inputs.polygons.iter().flat_map(|shown| {
-        shown.faces.0.iter().filter_map(|face| {
-            let laid = shown.textured.as_ref().and_then(|by| Laid::new(by, face, camera));
-            let (normal, lamps) = (face.normal, &inputs.lamps);
-            let ways = inputs.volume.as_ref().map_or_else(Vec::new, |medium| {
-                receiving::ways(normal, lamps, &inputs.strengths, &medium.grid)
+    let polygons = polygons(inputs, camera, &beams, cue);
+    // A transparency is never under 0: a ray that is not to stop goes on behind what is opaque.
+    let stop_at = f64::from(inputs.sampling.stop_at);
+    let stop = if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY };
+    let eye = camera.eye.map_or(f64::NEG_INFINITY, |eye| -eye);
+    let slabs = Slabs { distance: distance(inputs), stop, eye };
+    let dust = Dust::new(&inputs.shafts, camera).map_err(|p| Error::entity("shaft", p))?;
+    let dust = dust.as_ref();
+    let mut media = Vec::new();
+    // Where dust is, nothing is stepped over; several volumes have one dust.
+    let alone = dust.filter(|_| inputs.volumes.len() == 1);
+    for placed in &inputs.volumes {
+        let view = SharedView { camera, beams: &beams, slabs, cue, skips: dust.is_none() };
+        media.push(view.medium(placed, alone)?);
+    }
+    let rays = Rays { camera, polygons, slabs };
+    let several = |media| Several { media, distance: slabs.distance, dust };
+    match media.len() {
+        0 => rays.refine(inputs, layout, &Nothing, watch),
+        1 => match media.swap_remove(0) {
+            AnyMedium::F32(medium) => rays.refine(inputs, layout, &medium, watch),
+            AnyMedium::U16(medium) => rays.refine(inputs, layout, &medium, watch),
+            AnyMedium::U8(medium) => rays.refine(inputs, layout, &medium, watch),
+        },
+        _ => rays.refine(inputs, layout, &several(media), watch),
+    }
+}
+
+/// The polygons of a scene on a view.
+fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -> Polygons {
+    let lamps = &inputs.lamps;
+    let projected = inputs.polygons.iter().flat_map(|traced| {
+        traced.faces.0.iter().filter_map(|face| {
+            let texture =
+                traced.textured.as_ref().and_then(|by| FaceTexture::new(by, face, camera));
+            let offsets = traced.grid.as_ref().map_or_else(Vec::new, |grid| {
+                receiving::shadow_offsets(face.normal, lamps, &inputs.strengths, grid)
             });
-            Seen::new(face, camera, Look::new(&shown.surface, normal, lamps, ways, laid))
+            let looks = Appearance::new(&traced.surface, face.normal, lamps, offsets, texture);
+            ProjectedFace::new(face, camera, looks)
         })
     });
     // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
     let slack = 1e-9 * inputs.extent.radius() + 1e-14 * inputs.extent.center().abs().max_element();
-    let seen = seen.collect();
-    let polygons = Polygons::new(seen, &beams, slack, *camera, cue, inputs.strengths.clone());
-    // A transparency is never under 0: a ray that is not to stop goes on behind what is opaque.
-    let stop_at = f64::from(inputs.sampling.stop_at);
-    let stop = if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY };
-    let rays = Rays { camera, polygons, stop, cue };
-    let Some(medium) = &inputs.volume else {
-        return rays.refine::<[f32; 4]>(inputs, layout, None, watch);
-    };
-    match (&medium.gel.lit, &medium.gel.ambient) {
-        (GelBricks::F32(lit), None) => rays.through(inputs, layout, (medium, lit, None), watch),
-        (GelBricks::F32(lit), Some(GelBricks::F32(ambient))) => {
-            rays.through(inputs, layout, (medium, lit, Some(ambient)), watch)
-        }
-        (GelBricks::U16(lit), None) => rays.through(inputs, layout, (medium, lit, None), watch),
-        (GelBricks::U16(lit), Some(GelBricks::U16(ambient))) => {
-            rays.through(inputs, layout, (medium, lit, Some(ambient)), watch)
-        }
-        (GelBricks::U8(lit), None) => rays.through(inputs, layout, (medium, lit, None), watch),
-        (GelBricks::U8(lit), Some(GelBricks::U8(ambient))) => {
-            rays.through(inputs, layout, (medium, lit, Some(ambient)), watch)
-        }
-        _ => Err(Error::Schedule("the two parts of the gel are of different texels".to_owned())),
-    }
+    Polygons::new(projected.collect(), beams, slack, *camera, cue, inputs.strengths.clone())
 }
 
-/// What the rays of a view share, whatever numbers the gel is kept in.
-struct Rays<'a> {
+/// What the volumes of a view have in common.
+struct SharedView<'a> {
     camera: &'a Camera,
-    polygons: Polygons,
-    stop: f64,
+    beams: &'a Beams,
+    slabs: Slabs,
     cue: Option<Cue>,
+    /// Whether empty gel is stepped over.
+    skips: bool,
 }
 
-impl<'a> Rays<'a> {
-    fn through<T: Texel>(
-        self,
-        inputs: &'a Inputs,
-        layout: Layout,
-        (medium, gel, ambient): (&'a Medium, &'a Texels<T>, Option<&'a Texels<T>>),
-        watch: &Watch,
-    ) -> Result<Samples, Error> {
-        let distance =
-            inputs.sampling.distance_mm.unwrap_or_else(|| medium.grid.spacing().min_element());
-        let walk = Walk::new(&medium.grid, self.camera, distance)
+impl SharedView<'_> {
+    /// A volume as the rays of the view meet it, whatever numbers its gel is kept in.
+    fn medium<'a>(
+        &self,
+        placed: &'a PlacedGel,
+        dust: Option<&'a Dust>,
+    ) -> Result<AnyMedium<'a>, Error> {
+        let Gel { lit, ambient } = &placed.gel;
+        Ok(match (lit, ambient) {
+            (GelBricks::F32(lit), None) => AnyMedium::F32(self.of(placed, lit, None, dust)?),
+            (GelBricks::F32(lit), Some(GelBricks::F32(ambient))) => {
+                AnyMedium::F32(self.of(placed, lit, Some(ambient), dust)?)
+            }
+            (GelBricks::U16(lit), None) => AnyMedium::U16(self.of(placed, lit, None, dust)?),
+            (GelBricks::U16(lit), Some(GelBricks::U16(ambient))) => {
+                AnyMedium::U16(self.of(placed, lit, Some(ambient), dust)?)
+            }
+            (GelBricks::U8(lit), None) => AnyMedium::U8(self.of(placed, lit, None, dust)?),
+            (GelBricks::U8(lit), Some(GelBricks::U8(ambient))) => {
+                AnyMedium::U8(self.of(placed, lit, Some(ambient), dust)?)
+            }
+            _ => {
+                let problem = "the two parts of the gel are of different texels";
+                return Err(Error::Schedule(problem.to_owned()));
+            }
+        })
+    }
+
+    fn of<'a, T: Texel>(
+        &self,
+        placed: &'a PlacedGel,
+        lit: &'a Texels<T>,
+        ambient: Option<&'a Texels<T>>,
+        dust: Option<&'a Dust>,
+    ) -> Result<Medium<'a, T>, Error> {
+        let PlacedGel { grid, unit, .. } = placed;
+        let distance = self.slabs.distance;
+        let walk = Walk::new(grid, self.camera, distance)
             .map_err(|problem| Error::entity("view", problem))?;
-        let ratio = distance / medium.unit;
-        let ratio = if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio };
-        let pyramid = medium.pyramid.as_ref();
-        let dust = Dust::new(&inputs.shafts, self.camera, distance)
-            .map_err(|problem| Error::entity("shaft", problem))?;
-        let clear = dust.is_none();
-        let volume = Volume {
+        let pyramid = placed.pyramid.as_ref().filter(|_| self.skips);
+        let occupied = |pyramid| self.beams.occupied(lit, pyramid, grid, self.camera, distance);
+        Ok(Medium {
             walk,
-            gel: gel.slices(),
+            gel: lit.slices(),
             ambient: ambient.map(Texels::slices),
             pyramid: pyramid.map(Pyramid::slices),
-            ratio,
+            occupied: pyramid.map(occupied),
+            ratio: distance / unit,
             distance,
             cue: self.cue,
             dust,
-        };
-        let occupied = pyramid.filter(|_| clear).map(|pyramid| {
-            Beams::new(layout).occupied(gel, pyramid, &medium.grid, self.camera, distance)
-        });
-        self.refine(inputs, layout, Some((volume, occupied)), watch)
+        })
     }
+}
 
-    fn refine<T: Texel>(
+/// What the rays of a view share, whatever they meet.
+struct Rays<'a> {
+    camera: &'a Camera,
+    polygons: Polygons,
+    slabs: Slabs,
+}
+
+impl Rays<'_> {
+    fn refine<M: Media>(
         self,
         inputs: &Inputs,
         layout: Layout,
-        volume: Option<(Volume<'_, T>, Option<Occupied>)>,
+        media: &M,
         watch: &Watch,
     ) -> Result<Samples, Error> {
         let sampling = &inputs.sampling;
@@ -175,72 +237,12 @@ impl<'a> Rays<'a> {
         // Regions down to two pixels' side are split where outlines cross them.
         let outlines = (polygons && sampling.outlines && sampling.coarsest > 4)
             .then(|| self.polygons.outlines(&layout, 8));
-        let (volume, occupied) = volume.unzip();
+        let Self { camera, polygons: faces, slabs } = self;
         let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
-        let caster = BeamCaster {
-            rays: self,
-            volume,
-            occupied: occupied.flatten(),
-            three_colors: supersampled,
-        };
+        let caster =
+            BeamCaster { camera, polygons: faces, slabs, media, three_colors: supersampled };
         let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
             .refine(watch)?;
         Ok(Samples(Arc::new(array)))
-    }
-}
-
-/// Casts rays, a beam at a time.
-struct BeamCaster<'a, T> {
-    rays: Rays<'a>,
-    volume: Option<Volume<'a, T>>,
-    occupied: Option<Occupied>,
-    three_colors: bool,
-}
-
-impl<T: Texel> Caster for BeamCaster<'_, T> {
-    type Scratch = Vec<Hit>;
-
-    fn cast(&self, aims: &[Aim], rays: &mut [Ray], hits: &mut Vec<Hit>, counts: &mut Counts) {
-        for (aim, ray) in aims.iter().zip(rays) {
-            *ray = self.cast_one(*aim, hits, counts);
-        }
-    }
-}
-
-impl<T: Texel> BeamCaster<'_, T> {
-    fn cast_one(&self, aim: Aim, hits: &mut Vec<Hit>, counts: &mut Counts) -> Ray {
-        let Rays { polygons, stop, .. } = &self.rays;
-        if !polygons.is_empty() {
-            polygons.meet(aim.beam, aim.window, hits);
-        }
-        let mut cursor = self.cursor(aim.beam, aim.window);
-        if hits.is_empty() {
-            let full = self.volume.as_ref().map_or_else(
-                || [0.0; 4],
-                |volume| volume.march(&mut cursor, *stop, counts).rgba(*stop),
-            );
-            return Ray { full, ..Ray::default() };
-        }
-        let shade = |hit: &Hit| polygons.shade(hit, aim);
-        let colors = match &self.volume {
-            Some(volume) => volume.march_through(&mut cursor, hits, shade, *stop, counts),
-            None => march::polygons_alone(hits, shade, *stop, counts),
-        };
-        let plain = |hit: &Hit| polygons.plain(hit);
-        let geometric =
-            if self.three_colors { march::geometric(hits, plain, *stop) } else { [0.0; 4] };
-        Ray { full: colors.full.rgba(*stop), attenuated: colors.attenuated, geometric }
-    }
-
-    /// Where the ray through a window position enters the gel.
-    fn cursor(&self, beam: usize, window: DVec2) -> Cursor {
-        let Some(volume) = &self.volume else { return Cursor::NOWHERE };
-        let range = self.occupied.as_ref().map_or([i64::MIN, i64::MAX], |occupied| occupied[beam]);
-        if range[0] >= range[1] {
-            return Cursor::NOWHERE;
-        }
-        let origin = self.rays.camera.origin(window);
-        let samples = volume.walk.enter(origin);
-        samples.map_or(Cursor::NOWHERE, |samples| Cursor::new(&volume.walk, samples, range, origin))
     }
 }

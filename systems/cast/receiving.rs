@@ -19,7 +19,7 @@ const FLATTEST: f64 = 0.2;
 
 /// The way from a point on a face of unit normal `normal` to the point whose strength it gets, world units; one for each
 /// light of `lamps` that casts a shadow.
-pub fn ways(
+pub fn shadow_offsets(
     normal: DVec3,
     lamps: &Lamps,
     strengths: &[Option<LightStrength>],
@@ -28,8 +28,7 @@ pub fn ways(
     let covector = grid.index_to_world.matrix3.transpose() * normal;
     let way = |((_, lamp), strength): (&(Entity, Lamp), &Option<LightStrength>)| {
         let toward = lamp.toward.as_dvec3();
-        let bias = strength.as_ref().and_then(|strength| strength.buffer.as_ref());
-        let bias = bias.map_or(0.0, |buffer| buffer.bias().length());
+        let bias = strength.as_ref().map_or(0.0, LightStrength::bias);
         // Opacities are interpolated within slices, and strengths between columns and slices: so many cells farther does
         // the layer reach.
         let slices = Shear::new(grid, toward).map(|shear| shear.axes[2]);

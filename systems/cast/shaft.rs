@@ -15,7 +15,7 @@ use crate::view::camera::Camera;
 
 /// What a shaft is made of: the light and what shapes its beam.
 #[derive(Clone, PartialEq)]
-pub struct Stated {
+pub struct StatedShaft {
     /// The dust.
     pub shaft: Shaft,
     /// The light that it answers.
@@ -29,9 +29,6 @@ pub struct Stated {
 /// Every shaft of a scene on one view.
 pub struct Dust {
     beams: Vec<Beam>,
-    camera: Camera,
-    /// Δ, world units.
-    distance: f64,
 }
 
 struct Beam {
@@ -50,17 +47,16 @@ enum Strength {
 
 impl Dust {
     /// The dust of some shafts; `None` without one. The error is a sentence without a subject.
-    pub fn new(stated: &[Stated], camera: &Camera, distance: f64) -> Result<Option<Self>, String> {
+    pub fn new(stated: &[StatedShaft], camera: &Camera) -> Result<Option<Self>, String> {
         let beams: Vec<Beam> =
             stated.iter().map(|stated| Beam::new(stated, camera)).collect::<Result<_, _>>()?;
-        let dust = Self { beams, camera: *camera, distance };
+        let dust = Self { beams };
         Ok((!dust.beams.is_empty()).then_some(dust))
     }
 
-    /// Associated colour and opacity per opacity unit of the dust at sample `k` of the ray whose depth-0 point is `origin`,
-    /// together with the gel that is there too: what they let through multiplies, and their colours keep their weights.
-    pub fn join(&self, gel: Vec4, origin: DVec3, k: i64) -> Vec4 {
-        let world = origin + self.camera.forward * ((k as f64 + 0.5) * self.distance);
+    /// Associated colour and opacity per opacity unit of the dust at a world point, together with the gel that is there
+    /// too: what they let through multiplies, and their colours keep their weights.
+    pub fn join(&self, gel: Vec4, world: DVec3) -> Vec4 {
         self.beams.iter().fold(gel, |seen, beam| {
             let strength = beam.strength(world).min(1.0);
             let opacity = beam.opacity * strength;
@@ -75,8 +71,8 @@ impl Dust {
 }
 
 impl Beam {
-    fn new(stated: &Stated, camera: &Camera) -> Result<Self, String> {
-        let Stated { shaft, light, projected, strength } = stated;
+    fn new(stated: &StatedShaft, camera: &Camera) -> Result<Self, String> {
+        let StatedShaft { shaft, light, projected, strength } = stated;
         let toward = toward(light, -camera.forward);
         let strength = match (strength, projected) {
             (Some(strength), _) if shaft.attenuated => {
@@ -91,9 +87,7 @@ impl Beam {
 
     fn strength(&self, world: DVec3) -> f32 {
         match &self.strength {
-            Strength::Weakened(strength) => {
-                strength.buffer.as_ref().map_or(1.0, |buffer| buffer.at(world))
-            }
+            Strength::Weakened(strength) => strength.at(world),
             Strength::Profile(slide) => slide.at(world, [0.0; 2]),
             Strength::Full => 1.0,
         }

@@ -12,7 +12,7 @@ use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::grid::{Grid, Scalar, Scalars};
 use crate::volume::layer::{Gradient, Opacity};
-use crate::volume::seen::{self, Seen};
+use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
 use crate::with_scalars;
 
 /// Makes the [`Opacity`] of every volume that states how it is classified.
@@ -65,8 +65,8 @@ impl System for Classify {
     }
 
     fn plan(world: &World) -> Plan {
-        let bytes = |v: &Seen| (v.entity, bricks::most_bytes::<f32>(v.size));
-        let makes: Vec<_> = seen::classified(world).iter().map(bytes).collect();
+        let bytes = |v: &SceneVolume| (v.entity, bricks::most_bytes::<f32>(v.size()));
+        let makes: Vec<_> = with_content(world, Content::Classified).iter().map(bytes).collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }

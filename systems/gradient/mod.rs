@@ -13,7 +13,7 @@ use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::shared::Shared;
 use crate::volume::grid::{Grid, Scalar, Scalars};
 use crate::volume::layer::Gradient;
-use crate::volume::seen;
+use crate::volume::scene_volumes::{Content, with_content};
 use crate::with_scalars;
 
 /// Makes the [`Gradient`] of every volume that is to be classified.
@@ -40,7 +40,7 @@ impl System for TakeGradient {
         let voxel = size_of::<[f32; 3]>() as u64;
         let bytes = |size: [usize; 3]| size.iter().fold(voxel, |n, &m| n.saturating_mul(m as u64));
         let makes: Vec<_> =
-            seen::classified(world).iter().map(|v| (v.entity, bytes(v.size))).collect();
+            with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v.size()))).collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }

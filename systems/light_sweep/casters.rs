@@ -1,9 +1,12 @@
 //! What attenuates a light: opacities of the volume and of polygons, read a row of a slice at a time.
 
-use super::inputs::Source;
+use glam::Vec4;
+
+use super::inputs::LitOpacity;
 use crate::light::strength::Shear;
 use crate::volume::bricks::{Bricks, EDGE, VOXELS};
-use crate::volume::grid::Painted;
+use crate::volume::grid::Grid;
+use crate::volume::painting::Painting;
 
 /// Everything with an opacity, per voxel.
 pub(super) struct Casters {
@@ -13,10 +16,12 @@ pub(super) struct Casters {
 }
 
 impl Casters {
-    pub fn new(source: &Source, polygons: &[Bricks<f32>], size: [usize; 3]) -> Self {
+    pub fn new(source: &LitOpacity, polygons: &[Bricks<f32>], grid: &Grid) -> Self {
         let opacity = match source {
-            Source::Made(opacity) => opacity.clone(),
-            Source::Painted(painted) => alphas(painted, size),
+            LitOpacity::Made(opacity) => opacity.clone(),
+            LitOpacity::Painted(painted, clip) => {
+                alphas(&Painting::new(painted, grid, clip.as_ref()), grid.size)
+            }
         };
         Self { opacity, polygons: polygons.to_vec() }
     }
@@ -62,16 +67,18 @@ fn sound(opacity: f32) -> f32 {
     if opacity > 0.0 { opacity.min(1.0) } else { 0.0 }
 }
 
-/// The opacities of voxels that were classified and shaded already.
-fn alphas(painted: &Painted, size: [usize; 3]) -> Bricks<f32> {
-    let alpha = |at: usize| match painted {
-        Painted::U8(values) => f32::from(values[at][3]) / 255.0,
-        Painted::U16(values) => f32::from(values[at][3]) / 65535.0,
-        Painted::F32(values) => sound(values[at][3]),
-    };
+/// The opacities of voxels that were classified and shaded already, as far as they are not cut away.
+fn alphas(painting: &Painting<'_>, size: [usize; 3]) -> Bricks<f32> {
     Bricks::make(size, |place, brick| {
-        for (at, [x, y, z]) in place.voxels() {
-            brick[at] = alpha((z * size[1] + y) * size[0] + x);
+        let mut row = [Vec4::ZERO; EDGE];
+        let [x, y, z] = place.first;
+        for (dz, dy) in
+            (0..place.extent[2]).flat_map(|dz| (0..place.extent[1]).map(move |dy| (dz, dy)))
+        {
+            let row = &mut row[..place.extent[0]];
+            painting.row([x, y + dy, z + dz], row);
+            let made = &mut brick[(dz * EDGE + dy) * EDGE..][..row.len()];
+            made.iter_mut().zip(row).for_each(|(alpha, voxel)| *alpha = sound(voxel.w));
         }
         brick.iter().any(|&alpha| alpha > 0.0)
     })

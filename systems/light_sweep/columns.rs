@@ -188,7 +188,7 @@ impl<'a> Walk<'a> {
 mod tests {
     use glam::{DAffine3, DVec3};
 
-    use super::super::inputs::Source;
+    use super::super::inputs::LitOpacity;
     use super::*;
     use crate::volume::bricks::Bricks;
     use crate::volume::grid::Grid;
@@ -204,7 +204,7 @@ mod tests {
                 brick.fill(alpha);
                 true
             });
-            let casters = Casters::new(&Source::Made(bricks), &[], size);
+            let casters = Casters::new(&LitOpacity::Made(bricks), &[], &grid);
             let shear = Shear::new(&grid, DVec3::NEG_Z).unwrap();
             let mut columns = Columns::new(&shear, None, ratio, 1);
             for slice in 0..size[2] {

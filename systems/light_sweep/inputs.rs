@@ -3,23 +3,20 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Order, Shaft, Voxelize};
+use crate::components::{CastsShadow, Clip, Order, Shaft, Voxelize};
 use crate::error::Error;
 use crate::light::strength::ProjectedBy;
 use crate::polygon::face::Faces;
 use crate::volume::bricks::Bricks;
-use crate::volume::grid::{Grid, Painted, Scalars};
+use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, Coverage, Opacity};
+use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes};
 
 /// What one light's strengths are made from. Nothing of a view, but for a light that stands at the observer.
 #[derive(PartialEq)]
 pub(super) struct Inputs {
-    pub grid: Grid,
-    /// u, world units.
-    pub unit: f64,
-    pub opacity: Source,
-    /// The opacities of hybrid polygons, which cast shadows without being in the volume.
-    pub polygons: Vec<Bricks<f32>>,
+    /// What it shines through, in the order of the scene.
+    pub volumes: Vec<LitVolume>,
     /// Unit vector towards the light.
     pub toward: DVec3,
     pub shadow: CastsShadow,
@@ -28,37 +25,62 @@ pub(super) struct Inputs {
     pub buffer: bool,
 }
 
+/// A volume that lights shine through.
+#[derive(PartialEq, Clone)]
+pub(super) struct LitVolume {
+    pub entity: Entity,
+    pub grid: Grid,
+    /// u, world units.
+    pub unit: f64,
+    pub opacity: LitOpacity,
+    /// The opacities of hybrid polygons, which cast shadows without being in the volume.
+    pub polygons: Vec<Bricks<f32>>,
+}
+
 /// The opacity that is lit: matted, or the volume's own.
 #[derive(PartialEq, Clone)]
-pub(super) enum Source {
+pub(super) enum LitOpacity {
     Made(Bricks<f32>),
-    Painted(Painted),
+    Painted(Painted, Option<Clip>),
 }
 
-/// The first volume of the scene with an opacity: of the matted voxels, of the volume's own, of its painted ones.
-pub(super) fn lit_volume(world: &World) -> Option<(Entity, Grid, Source)> {
-    type Opacities<'a> = (Option<&'a Composite>, Option<&'a Opacity>, Option<&'a Painted>);
-    let mut query = world.query::<(Entity, &Grid, Option<&Order>, Opacities<'_>)>();
-    let volumes =
-        query.iter().filter_map(|(entity, grid, order, (composite, opacity, painted))| {
-            let source = composite
-                .map(|composite| Source::Made(composite.0.opacity.clone()))
-                .or_else(|| opacity.map(|opacity| Source::Made(opacity.voxels.clone())))
-                .or_else(|| painted.map(|painted| Source::Painted(painted.clone())))?;
-            Some((order.copied(), (entity, *grid, source)))
-        });
-    volumes.min_by_key(|(order, (entity, ..))| (*order, *entity)).map(|(_, volume)| volume)
+/// The volumes of the scene with an opacity: of their matted voxels, of their own, of their painted ones.
+pub(super) fn lit_volumes(world: &World) -> Result<Vec<LitVolume>, Error> {
+    let all = volumes(world);
+    let mut lit = Vec::new();
+    for SceneVolume { entity, grid, unit, .. } in &all {
+        let composite = world.get::<&Composite>(*entity).ok();
+        let made = composite.map(|composite| composite.0.opacity.clone());
+        let own = || Some(world.get::<&Opacity>(*entity).ok()?.voxels.clone());
+        let painted = || {
+            let painted = (*world.get::<&Painted>(*entity).ok()?).clone();
+            let clip = world.get::<&Clip>(*entity).ok().map(|clip| (*clip).clone());
+            Some(LitOpacity::Painted(painted, clip))
+        };
+        let opacity = made.or_else(own).map(LitOpacity::Made).or_else(painted);
+        if let Some(opacity) = opacity {
+            let polygons = hybrid_coverage(world, &all, (*entity, grid))?;
+            lit.push(LitVolume { entity: *entity, grid: *grid, unit: *unit, opacity, polygons });
+        }
+    }
+    Ok(lit)
 }
 
-/// What casts shadows though it is drawn by the hybrid ray tracer, in the order of the scene.
-pub(super) fn hybrid_coverage(world: &World, grid: &Grid) -> Result<Vec<Bricks<f32>>, Error> {
+/// What casts shadows in a volume though it is drawn by the hybrid ray tracer, in the order of the scene.
+fn hybrid_coverage(
+    world: &World,
+    all: &[SceneVolume],
+    (volume, grid): (Entity, &Grid),
+) -> Result<Vec<Bricks<f32>>, Error> {
     let mut query = world
-        .query::<(Entity, &Coverage, Option<&Order>)>()
-        .with::<&Faces>()
+        .query::<(Entity, &Coverage, &Faces, Option<&Order>)>()
         .without::<&Voxelize>();
     let mut found: Vec<_> = query.iter().collect();
-    found.sort_by_key(|(entity, _, order)| (order.copied(), *entity));
-    let opacity = |(_, coverage, _): (Entity, &Coverage, Option<&Order>)| {
+    found.retain(|(_, _, faces, _)| {
+        around(all, faces.middle()).is_some_and(|around| around.entity == volume)
+    });
+    found.sort_by_key(|(entity, .., order)| (order.copied(), *entity));
+    let opacity = |(_, coverage, ..): (Entity, &Coverage, &Faces, Option<&Order>)| {
         let opacity = &coverage.0.opacity;
         if opacity.size() == grid.size {
             return Ok(opacity.clone());
@@ -73,13 +95,12 @@ pub(super) fn hybrid_coverage(world: &World, grid: &Grid) -> Result<Vec<Bricks<f
     found.into_iter().map(opacity).collect()
 }
 
-/// The grid of the first volume that states voxels: what a plan knows before anything is made.
-pub(super) fn stated_grid(world: &World) -> Option<Grid> {
-    let mut query =
-        world.query::<(Entity, &Grid, Option<&Order>, Option<&Scalars>, Option<&Painted>)>();
-    let stated =
-        query.iter().filter(|(.., scalars, painted)| scalars.is_some() || painted.is_some());
-    stated.min_by_key(|(entity, _, order, ..)| (order.copied(), *entity)).map(|found| *found.1)
+/// The volumes that will be lit: what a plan knows before anything is made.
+pub(super) fn stated_volumes(world: &World) -> Vec<SceneVolume> {
+    let mut all = volumes(world);
+    let voxelized = world.query::<&Voxelize>().iter().next().is_some();
+    all.retain(|volume| volume.content != Content::Clear || voxelized);
+    all
 }
 
 /// Whether hybrid polygons receive this light, or a shaft of it is seen.

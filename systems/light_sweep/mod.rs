@@ -15,10 +15,12 @@ use std::mem::size_of;
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Light, Name, OpacityUnit};
+use crate::components::{CastsShadow, Light, Name};
 use crate::error::Error;
 use crate::light::shading::toward;
-use crate::light::strength::{Buffer, Falloff, LightStrength, ProjectedBy, Shear, Slide, quantize};
+use crate::light::strength::{
+    Buffer, Falloff, LightStrength, ProjectedBy, Shear, Slide, VoxelStrength, quantize,
+};
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::most_bytes;
@@ -26,7 +28,7 @@ use crate::volume::grid::Grid;
 use crate::volume::layer::{Composite, Coverage, Opacity};
 use casters::Casters;
 use columns::Columns;
-use inputs::{Inputs, hybrid_coverage, lit_volume, reads_buffer, stated_grid};
+use inputs::{Inputs, LitVolume, lit_volumes, reads_buffer, stated_volumes};
 use voxels::Voxels;
 
 /// Makes the [`LightStrength`] of every light that `casts_shadow`; other lights cost nothing.
@@ -39,20 +41,16 @@ impl System for LightSweep {
         &[ProductKey::of::<Opacity>(), ProductKey::of::<Coverage>(), ProductKey::of::<Composite>()];
 
     fn run(world: &World, out: &mut Outbox<'_, LightStrength>) -> Result<(), Error> {
-        let Some((volume, grid, opacity)) = lit_volume(world) else {
-            return Ok(());
-        };
-        let polygons = hybrid_coverage(world, &grid)?;
-        let unit = world.get::<&OpacityUnit>(volume);
-        let unit = unit.map_or_else(|_| grid.spacing().min_element(), |unit| unit.0);
         let mut query =
             world.query::<(Entity, &Light, &CastsShadow, Option<&ProjectedBy>, Option<&Name>)>();
-        for (entity, light, shadow, projected, name) in &mut query {
+        let lights: Vec<_> = query.iter().collect();
+        let volumes = if lights.is_empty() { Vec::new() } else { lit_volumes(world)? };
+        for (entity, light, shadow, projected, name) in lights {
+            if volumes.is_empty() {
+                break;
+            }
             let inputs = Inputs {
-                grid,
-                unit,
-                opacity: opacity.clone(),
-                polygons: polygons.clone(),
+                volumes: volumes.clone(),
                 toward: toward(light, observer::direction(world)),
                 shadow: *shadow,
                 projected: projected.cloned(),
@@ -61,7 +59,7 @@ impl System for LightSweep {
             let watch = out.watch();
             out.derive(entity, inputs, |inputs| {
                 let name = name.map_or("light", |name| &name.0);
-                sweep(inputs, watch, &|problem| Error::entity(name, problem))
+                swept(inputs, watch, &|problem| Error::entity(name, problem))
             })?;
         }
         Ok(())
@@ -75,17 +73,23 @@ impl System for LightSweep {
                 "no light states `casts_shadow`: every light has its full strength everywhere",
             );
         }
-        let Some(grid) = stated_grid(world) else {
+        let volumes = stated_volumes(world);
+        if volumes.is_empty() {
             return Plan::absent(
                 "a light states `casts_shadow`, but there is no volume to cast it through",
             );
-        };
+        }
         let bytes = |(entity, light, shadow): (Entity, &Light, &CastsShadow)| {
             let toward = toward(light, observer::direction(world));
-            (entity, most(&grid, toward, shadow, reads_buffer(world, entity)))
+            // What comes through each of several volumes weakens the light in the others.
+            let buffer = volumes.len() > 1 || reads_buffer(world, entity);
+            let most = volumes.iter().map(|v| most(&v.grid, toward, shadow, buffer));
+            (entity, most.fold(0, u64::saturating_add))
         };
         let makes: Vec<_> = lights.into_iter().map(bytes).collect();
-        let why = if makes.iter().any(|(entity, _)| reads_buffer(world, *entity)) {
+        let why = if volumes.len() > 1 {
+            "`casts_shadow`, with a 3D light-strength buffer for each volume, since what comes through one lights the others"
+        } else if makes.iter().any(|(entity, _)| reads_buffer(world, *entity)) {
             "`casts_shadow`, with the 3D light-strength buffer because hybrid polygons or a shaft of light read it"
         } else {
             "`casts_shadow`; only the slices within the bias are kept, since nothing reads a 3D light-strength buffer"
@@ -119,61 +123,115 @@ fn depth(bias: f64, shear: &Shear) -> usize {
     (bias.ceil() as usize).saturating_add(1).min(shear.size[2])
 }
 
-/// Sweeps one light through the volume.
-fn sweep(
+/// Sweeps one light through every volume.
+///
+/// What comes through several volumes is the product of what comes through each: optical depths add. So each is swept
+/// alone, and its voxels are weakened by what the buffers of the others let through.
+fn swept(
     inputs: &Inputs,
     watch: &Watch,
     wrong: &dyn Fn(String) -> Error,
 ) -> Result<LightStrength, Error> {
-    let Inputs { grid, toward, shadow, .. } = inputs;
-    let (shear, falloff, slide) = placed(inputs).map_err(wrong)?;
-    let bias = bias_slices(grid, &shear, shadow);
-    let casters = Casters::new(&inputs.opacity, &inputs.polygons, grid.size);
-    let brightest = slide.as_ref().map_or(1.0, Slide::brightest);
-    // A slide of black has no strength to scale by.
-    let brightest = if brightest > 0.0 { brightest } else { 1.0 };
-    let full = (f64::from(brightest) / falloff.least()) as f32;
-    let mut columns =
-        Columns::new(&shear, slide.as_ref(), shear.distance / inputs.unit, depth(bias, &shear));
-    let mut voxels = Voxels::new(&casters.opacity, &falloff, bias, full);
-    let [width, height] = shear.width();
-    let kept = if inputs.buffer { width * height * shear.size[2] } else { 0 };
-    let mut slices = Vec::with_capacity(kept);
-    watch.expect(shear.size[2] as u64);
-    for slice in 0..shear.size[2] {
-        watch.check()?;
-        let swept = columns.sweep(slice, &casters);
-        if inputs.buffer {
-            let brightest = f64::from(brightest);
-            slices.extend(swept.iter().map(|&s| quantize(f64::from(s), brightest)));
+    let Inputs { volumes, toward, shadow, .. } = inputs;
+    let grids: Vec<_> = volumes.iter().map(|volume| volume.grid).collect();
+    let (falloff, slide) = checked(inputs, &grids).map_err(wrong)?;
+    let mut through = Vec::new();
+    if volumes.len() > 1 {
+        for volume in volumes {
+            let (_, buffer) = Sweep { volume, toward, shadow, falloff: Falloff::NONE, slide: None }
+                .run(&[], true, watch, wrong)?;
+            through.extend(buffer);
         }
-        voxels.light(slice, &columns);
-        watch.advance();
     }
-    drop(columns);
-    let bias = *toward * (bias * shear.distance);
-    let buffer =
-        inputs.buffer.then(|| Buffer::new((shear, falloff), slide, (slices, brightest), bias));
-    Ok(LightStrength { voxels: voxels.gather(&shear), full, buffer })
+    let mut strength = LightStrength { volumes: Vec::new(), buffers: Vec::new() };
+    for (number, volume) in volumes.iter().enumerate() {
+        let others: Vec<&Buffer> =
+            through.iter().enumerate().filter(|(n, _)| *n != number).map(|(_, b)| b).collect();
+        // One buffer has the slide and the falloff, the others what comes through their volumes alone.
+        let sweep = Sweep { volume, toward, shadow, falloff, slide: slide.clone() };
+        let (voxels, own) = sweep.run(&others, inputs.buffer && number == 0, watch, wrong)?;
+        if let Some(own) = own {
+            strength.buffers = std::iter::once(own).chain(others.into_iter().cloned()).collect();
+        }
+        strength.volumes.push((volume.entity, voxels));
+    }
+    Ok(strength)
 }
 
-/// Where the light goes through the volume; an error is a sentence without a subject.
-fn placed(inputs: &Inputs) -> Result<(Shear, Falloff, Option<Slide>), String> {
-    let Inputs { grid, unit, toward, shadow, .. } = inputs;
+/// One light on its way through one volume.
+struct Sweep<'a> {
+    volume: &'a LitVolume,
+    toward: &'a DVec3,
+    shadow: &'a CastsShadow,
+    falloff: Falloff,
+    slide: Option<Slide>,
+}
+
+impl Sweep<'_> {
+    /// The strengths at the volume's voxels, where `others` weaken the light too; and anywhere, if `buffer` is asked for.
+    fn run(
+        self,
+        others: &[&Buffer],
+        buffer: bool,
+        watch: &Watch,
+        wrong: &dyn Fn(String) -> Error,
+    ) -> Result<(VoxelStrength, Option<Buffer>), Error> {
+        let Self { volume, toward, shadow, falloff, slide } = self;
+        let grid = &volume.grid;
+        let direction = "its `toward` has no direction; state three finite numbers that are not all 0";
+        let shear = Shear::new(grid, *toward).ok_or_else(|| wrong(direction.to_owned()))?;
+        let bias = bias_slices(grid, &shear, shadow);
+        let casters = Casters::new(&volume.opacity, &volume.polygons, grid);
+        let brightest = slide.as_ref().map_or(1.0, Slide::brightest);
+        // A slide of black has no strength to scale by.
+        let brightest = if brightest > 0.0 { brightest } else { 1.0 };
+        let full = (f64::from(brightest) / falloff.least()) as f32;
+        let ratio = shear.distance / volume.unit;
+        let mut columns = Columns::new(&shear, slide.as_ref(), ratio, depth(bias, &shear));
+        let way = *toward * (bias * shear.distance);
+        let mut voxels = Voxels::new(&casters.opacity, &falloff, (bias, way), full, others);
+        let [width, height] = shear.width();
+        let kept = if buffer { width * height * shear.size[2] } else { 0 };
+        let mut slices = Vec::with_capacity(kept);
+        watch.expect(shear.size[2] as u64);
+        for slice in 0..shear.size[2] {
+            watch.check()?;
+            let swept = columns.sweep(slice, &casters);
+            if buffer {
+                let brightest = f64::from(brightest);
+                slices.extend(swept.iter().map(|&s| quantize(f64::from(s), brightest)));
+            }
+            voxels.light(slice, &columns);
+            watch.advance();
+        }
+        drop(columns);
+        let strength = VoxelStrength { voxels: voxels.gather(&shear), full };
+        let buffer = buffer
+            .then(|| Buffer::new((shear, falloff), slide, (slices, brightest), way));
+        Ok((strength, buffer))
+    }
+}
+
+/// The falloff and the slide of a light, checked; an error is a sentence without a subject.
+fn checked(inputs: &Inputs, grids: &[Grid]) -> Result<(Falloff, Option<Slide>), String> {
+    let Inputs { volumes, toward, shadow, .. } = inputs;
     let CastsShadow { bias_voxels, k1, k2 } = *shadow;
     if !(bias_voxels >= 0.0 && bias_voxels.is_finite()) {
         return Err(format!(
             "`casts_shadow` states a bias of {bias_voxels} voxels; choose 0 or more, 2 is usual"
         ));
     }
-    if !(*unit > 0.0 && unit.is_finite()) {
+    if let Some(unit) = volumes.iter().map(|v| v.unit).find(|u| !(*u > 0.0 && u.is_finite())) {
         return Err(format!(
             "it shines through a volume whose opacity unit is {unit}; `opacity_unit_mm` must be above 0"
         ));
     }
-    let shear = Shear::new(grid, *toward)
-        .ok_or("its `toward` has no direction; state three finite numbers that are not all 0")?;
-    let falloff = Falloff::new(grid, *toward, k1, k2)?;
+    if Shear::new(&grids[0], *toward).is_none() {
+        return Err(
+            "its `toward` has no direction; state three finite numbers that are not all 0".to_owned(),
+        );
+    }
+    let falloff = Falloff::new(grids, *toward, k1, k2)?;
     let slide = inputs.projected.as_ref().map(|p| Slide::new(p, *toward)).transpose()?;
-    Ok((shear, falloff, slide))
+    Ok((falloff, slide))
 }

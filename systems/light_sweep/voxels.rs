@@ -1,18 +1,21 @@
 //! From columns to voxels: the one resampling of strengths, at points that are the bias nearer to the light (paper §4).
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::columns::Columns;
-use crate::light::strength::{Falloff, Place, Shear, quantize};
+use crate::light::strength::{Buffer, Falloff, Place, Shear, quantize};
 use crate::volume::bricks::{Bricks, EDGE};
 
 /// The strengths at interesting voxels, gathered slice by slice.
 pub(super) struct Voxels<'a> {
     opacity: &'a Bricks<f32>,
     falloff: &'a Falloff,
-    /// In slices.
-    bias: f64,
+    /// In slices, and as the way towards the light in the world.
+    bias: (f64, DVec3),
     full: f32,
+    /// What other volumes let through.
+    others: &'a [&'a Buffer],
     /// For each slice and each row of bricks in it.
     slices: Vec<Vec<Lit>>,
 }
@@ -48,8 +51,23 @@ impl Beams<'_> {
 }
 
 impl<'a> Voxels<'a> {
-    pub fn new(opacity: &'a Bricks<f32>, falloff: &'a Falloff, bias: f64, full: f32) -> Self {
-        Self { opacity, falloff, bias, full, slices: Vec::new() }
+    pub fn new(
+        opacity: &'a Bricks<f32>,
+        falloff: &'a Falloff,
+        bias: (f64, DVec3),
+        full: f32,
+        others: &'a [&'a Buffer],
+    ) -> Self {
+        Self { opacity, falloff, bias, full, others, slices: Vec::new() }
+    }
+
+    /// What the other volumes let through to a voxel of the slice.
+    fn through(&self, shear: &Shear, [x, y]: [usize; 2], slice: usize) -> f64 {
+        if self.others.is_empty() {
+            return 1.0;
+        }
+        let world = shear.world([x as f64, y as f64, slice as f64]) + self.bias.1;
+        self.others.iter().map(|other| f64::from(other.at(world))).product()
     }
 
     /// Lights the interesting voxels of the slice that the columns have come to.
@@ -60,8 +78,8 @@ impl<'a> Voxels<'a> {
         let beams = Beams {
             columns,
             slice,
-            place: shear.place(shear.column([0.0; 2], slice as f64), slice as f64 - self.bias),
-            distance: first - self.bias * shear.distance,
+            place: shear.place(shear.column([0.0; 2], slice as f64), slice as f64 - self.bias.0),
+            distance: first - self.bias.0 * shear.distance,
             farther: [distance(1.0, 0.0) - first, distance(0.0, 1.0) - first],
         };
         let rows = (0..shear.size[1].div_ceil(EDGE)).into_par_iter();
@@ -80,7 +98,8 @@ impl<'a> Voxels<'a> {
             };
             for ([x, y], within) in offsets(shear, slice) {
                 if opacities[within] > 0.0 {
-                    let beta = beams.beta([brick * EDGE + x, row * EDGE + y], self.falloff);
+                    let voxel = [brick * EDGE + x, row * EDGE + y];
+                    let beta = beams.beta(voxel, self.falloff) * self.through(shear, voxel, slice);
                     lit.strengths.push(quantize(beta, f64::from(self.full)));
                 }
             }

@@ -17,10 +17,10 @@ use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, Coverage, Layer, LitColors, Opacity};
 use crate::volume::painting::Painting;
-use crate::volume::seen;
+use crate::volume::scene_volumes::{SceneVolume, around, volumes};
 use matting::{footprint, weights};
 
-/// Makes the [`Composite`] of the scene's volume, only if some polygon is scan-converted into it.
+/// Makes the [`Composite`] of every volume that some polygon is scan-converted into.
 pub struct Matte;
 
 /// What a composite is made from: the volume, and the polygons in the order of the scene.
@@ -28,13 +28,13 @@ pub struct Matte;
 struct Inputs {
     grid: Grid,
     unit: f64,
-    volume: Volume,
+    backdrop: Backdrop,
     polygons: Vec<Polygon>,
 }
 
 /// What a polygon is matted with.
 #[derive(Clone, PartialEq)]
-enum Volume {
+enum Backdrop {
     /// Classified and shaded here.
     Made(Bricks<f32>, LitColors),
     /// Came classified and shaded: no light of the scene changes its colours.
@@ -66,29 +66,43 @@ impl System for Matte {
         &[ProductKey::of::<Opacity>(), ProductKey::of::<LitColors>(), ProductKey::of::<Coverage>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Composite>) -> Result<(), Error> {
-        let polygons = Polygon::all(world);
-        let Some((entity, grid, unit)) = seen::first(world).filter(|_| !polygons.is_empty()) else {
-            return Ok(());
-        };
-        let inputs = Inputs { grid, unit, volume: Volume::of(world, entity), polygons };
-        out.derive(entity, inputs, |inputs| Ok(Composite(inputs.composite())))
+        let (polygons, volumes) = (Polygon::all(world), volumes(world));
+        for SceneVolume { entity, grid, unit, .. } in &volumes {
+            let here = |polygon: &&Polygon| polygon.is_in(*entity, &volumes);
+            let polygons: Vec<_> = polygons.iter().filter(here).cloned().collect();
+            if !polygons.is_empty() {
+                let backdrop = Backdrop::of(world, *entity);
+                let inputs = Inputs { grid: *grid, unit: *unit, backdrop, polygons };
+                out.derive(*entity, inputs, |inputs| Ok(Composite(inputs.composite())))?;
+            }
+        }
+        Ok(())
     }
 
     fn plan(world: &World) -> Plan {
-        let voxelized = world.query::<(&Voxelize, &Surface, &Faces)>().iter().next().is_some();
-        let Some((entity, grid, _)) = seen::first(world).filter(|_| voxelized) else {
+        let mut volumes = volumes(world);
+        let mut query = world.query::<&Faces>().with::<(&Voxelize, &Surface)>();
+        let into: Vec<_> = query
+            .iter()
+            .filter_map(|faces| Some(around(&volumes, faces.middle())?.entity))
+            .collect();
+        volumes.retain(|volume| into.contains(&volume.entity));
+        if volumes.is_empty() {
             return Plan::absent("no polygon is scan-converted into a volume");
-        };
+        }
         let cued = observer::is_cued(world);
         let shadowed = world.query::<&Light>().with::<&CastsShadow>().iter().count();
-        let colors = (1 + u64::from(cued) + shadowed as u64)
-            .saturating_mul(bricks::most_bytes::<[f32; 3]>(grid.size));
-        let bytes = colors.saturating_add(bricks::most_bytes::<f32>(grid.size));
-        Plan { makes: vec![(entity, bytes)], why: "a polygon carries `voxelize`" }
+        let bytes = |volume: &SceneVolume| {
+            let colors = (1 + u64::from(cued) + shadowed as u64)
+                .saturating_mul(bricks::most_bytes::<[f32; 3]>(volume.size()));
+            colors.saturating_add(bricks::most_bytes::<f32>(volume.size()))
+        };
+        let makes = volumes.iter().map(|volume| (volume.entity, bytes(volume))).collect();
+        Plan { makes, why: "a polygon carries `voxelize`" }
     }
 }
 
-impl Volume {
+impl Backdrop {
     fn of(world: &World, entity: Entity) -> Self {
         let opacity = world.get::<&Opacity>(entity).ok();
         let colors = world.get::<&LitColors>(entity).ok();
@@ -173,6 +187,11 @@ impl Polygon {
         all.into_iter().map(polygon).collect()
     }
 
+    /// Whether it is scan-converted into this of some volumes.
+    fn is_in(&self, entity: Entity, volumes: &[SceneVolume]) -> bool {
+        around(volumes, self.faces.middle()).is_some_and(|volume| volume.entity == entity)
+    }
+
     /// α_G of a voxel where the polygon is wholly there: the least over the faces' directions in the grid.
     fn peak(&self, grid: &Grid, unit: f64) -> f32 {
         let flats: Vec<Flat> =
@@ -196,7 +215,7 @@ impl Inputs {
     fn composite(&self) -> Layer {
         let peaks: Vec<f32> = self.polygons.iter().map(|p| p.peak(&self.grid, self.unit)).collect();
         let opacity = Bricks::make(self.grid.size, |place, alpha| {
-            self.volume.opacity(&self.grid, place, alpha);
+            self.backdrop.opacity(&self.grid, place, alpha);
             self.matte(&peaks, place, alpha, |_, _, _, _| {});
             alpha.iter().any(|&alpha| alpha > 0.0)
         });
@@ -217,8 +236,8 @@ impl Inputs {
                 return false;
             }
             let mut alpha = [0.0; VOXELS];
-            self.volume.opacity(&self.grid, place, &mut alpha);
-            self.volume.color(&self.grid, place, channel, made);
+            self.backdrop.opacity(&self.grid, place, &mut alpha);
+            self.backdrop.color(&self.grid, place, channel, made);
             self.matte(peaks, place, &mut alpha, |colors, at, parts, whole| {
                 let of_polygon = channel.of(colors).and_then(|bricks| bricks.brick(place.brick));
                 let of_polygon = of_polygon.map_or(Vec3::ZERO, |brick| Vec3::from(brick[at]));

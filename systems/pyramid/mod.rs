@@ -9,7 +9,7 @@ use crate::view::observer;
 use crate::volume::gel::CELLS;
 use crate::volume::gel::Gel;
 use crate::volume::pyramid::Pyramid;
-use crate::volume::seen::{self, Seen};
+use crate::volume::scene_volumes::{SceneVolume, visible};
 use crate::with_texels;
 
 /// Makes the [`Pyramid`] of every gel, where the view's sampling asks for it.
@@ -37,12 +37,12 @@ impl System for StackPyramid {
         if observer::sampling(world).skip != Skip::Pyramid {
             return Plan::absent("`sampling.skip` is none");
         }
-        let bytes = |v: &Seen| {
-            let bricks: u64 = v.size.iter().map(|n| n.div_ceil(CELLS) as u64).product();
+        let bytes = |v: &SceneVolume| {
+            let bricks: u64 = v.size().iter().map(|n| n.div_ceil(CELLS) as u64).product();
             // A bit a cell and a level a brick.
             bricks.saturating_mul(size_of::<[u64; CELLS]>() as u64 + 1)
         };
-        let makes: Vec<_> = seen::all(world).iter().map(|v| (v.entity, bytes(v))).collect();
+        let makes: Vec<_> = visible(world).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {
             return Plan::absent("no volume is stated");
         }

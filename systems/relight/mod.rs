@@ -8,7 +8,7 @@ use hecs::{Entity, World};
 use crate::components::{Clip, TexelKind, Voxelize};
 use crate::error::Error;
 use crate::light::shading::Lamps;
-use crate::light::strength::LightStrength;
+use crate::light::strength::{LightStrength, VoxelStrength};
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
 use crate::volume::bricks::Bricks;
@@ -17,7 +17,7 @@ use crate::volume::gel::{self, GelBricks};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
-use crate::volume::seen::{self, Seen};
+use crate::volume::scene_volumes::{Content, SceneVolume, visible};
 
 use relit::Relit;
 
@@ -26,15 +26,15 @@ pub struct Relight;
 
 #[derive(PartialEq)]
 struct Inputs {
-    source: Source,
+    unlit: Unlit,
     /// Of each light that casts a shadow, in the order of the scene; `None` is β = 1.
-    strengths: Vec<Option<LightStrength>>,
+    strengths: Vec<Option<VoxelStrength>>,
     texel: TexelKind,
 }
 
 /// Where opacity and colours come from.
 #[derive(PartialEq)]
-enum Source {
+enum Unlit {
     Layer(Bricks<f32>, LitColors),
     Painted(Painted, Grid, Option<Clip>),
 }
@@ -51,14 +51,14 @@ impl System for Relight {
 
     fn run(world: &World, out: &mut Outbox<'_, Gel>) -> Result<(), Error> {
         let watch = out.watch();
-        let (texel, strengths) = (observer::sampling(world).texel, strengths(world));
-        for (entity, source) in sources(world) {
+        let texel = observer::sampling(world).texel;
+        for (entity, unlit) in unlit(world) {
             // Painted voxels bring their light with them.
-            let lit = matches!(source, Source::Layer(..));
-            let strengths = if lit { strengths.clone() } else { Vec::new() };
-            out.derive(entity, Inputs { source, strengths, texel }, |inputs| {
+            let shaded = matches!(unlit, Unlit::Layer(..));
+            let strengths = if shaded { strengths(world, entity) } else { Vec::new() };
+            out.derive(entity, Inputs { unlit, strengths, texel }, |inputs| {
                 watch.check()?;
-                Ok(inputs.relight())
+                inputs.relight()
             })?;
         }
         Ok(())
@@ -68,12 +68,12 @@ impl System for Relight {
         let texel = observer::sampling(world).texel;
         let cued = observer::is_cued(world);
         let matted = world.query::<&Voxelize>().iter().next().is_some();
-        let bytes = |v: &Seen| {
+        let bytes = |v: &SceneVolume| {
             // Ambient light is kept apart for a depth cue; paint alone has none.
-            let apart = cued && (matted || !v.painted);
-            gel::most_bytes(texel, v.size).saturating_mul(1 + u64::from(apart))
+            let apart = cued && (matted || v.content != Content::Painted);
+            gel::most_bytes(texel, v.size()).saturating_mul(1 + u64::from(apart))
         };
-        let makes: Vec<_> = seen::all(world).iter().map(|v| (v.entity, bytes(v))).collect();
+        let makes: Vec<_> = visible(world).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {
             return Plan::absent("no volume is stated");
         }
@@ -82,7 +82,7 @@ impl System for Relight {
 }
 
 /// What there is to relight: composites first, then classified volumes, then painted ones.
-fn sources(world: &World) -> Vec<(Entity, Source)> {
+fn unlit(world: &World) -> Vec<(Entity, Unlit)> {
     type Volume<'a> = (
         Entity,
         &'a Grid,
@@ -92,7 +92,7 @@ fn sources(world: &World) -> Vec<(Entity, Source)> {
         Option<&'a Clip>,
     );
     let mut volumes = world.query::<Volume>();
-    let source =
+    let unlit =
         |(entity, grid, composite, classified, painted, clip): <Volume as hecs::Query>::Item<
             '_,
         >| {
@@ -102,24 +102,25 @@ fn sources(world: &World) -> Vec<(Entity, Source)> {
                 (None, None) => None,
             };
             let layer =
-                layer.map(|(opacity, colors)| Source::Layer(opacity.clone(), colors.clone()));
-            let painted = || painted.map(|p| Source::Painted(p.clone(), *grid, clip.cloned()));
+                layer.map(|(opacity, colors)| Unlit::Layer(opacity.clone(), colors.clone()));
+            let painted = || painted.map(|p| Unlit::Painted(p.clone(), *grid, clip.cloned()));
             Some((entity, layer.or_else(painted)?))
         };
-    volumes.iter().filter_map(source).collect()
+    volumes.iter().filter_map(unlit).collect()
 }
 
-/// β of every light that casts a shadow, in the order of the scene; `None` where no buffer was made.
-fn strengths(world: &World) -> Vec<Option<LightStrength>> {
+/// β in a volume of every light that casts a shadow, in the order of the scene; `None` where none was made.
+fn strengths(world: &World, volume: Entity) -> Vec<Option<VoxelStrength>> {
     let lamps = Lamps::of(world, observer::ANYWHERE);
-    let strength = |entity: Entity| world.get::<&LightStrength>(entity).ok();
-    lamps.shadowed.iter().map(|(entity, _)| strength(*entity).map(|s| (*s).clone())).collect()
+    let strength =
+        |light: Entity| world.get::<&LightStrength>(light).ok()?.of(volume).cloned();
+    lamps.shadowed.iter().map(|(light, _)| strength(*light)).collect()
 }
 
 impl Inputs {
-    fn relight(&self) -> Gel {
-        match &self.source {
-            Source::Painted(painted, grid, clip) => {
+    fn relight(&self) -> Result<Gel, Error> {
+        match &self.unlit {
+            Unlit::Painted(painted, grid, clip) => {
                 let painting = Painting::new(painted, grid, clip.as_ref());
                 let holds = |brick| painting.holds(brick);
                 let fill = |first, row: &mut [Vec4]| {
@@ -128,21 +129,28 @@ impl Inputs {
                         *voxel = (voxel.truncate() * voxel.w).extend(voxel.w);
                     }
                 };
-                Gel { lit: GelBricks::make(self.texel, grid.size, holds, fill), ambient: None }
+                let lit = GelBricks::make(self.texel, grid.size, holds, fill);
+                Ok(Gel { lit, ambient: None })
             }
-            Source::Layer(opacity, colors) => {
-                let shadowed = colors.shadowed.iter().enumerate().map(|(i, colors)| {
-                    let strength = self.strengths.get(i).and_then(Option::as_ref);
-                    (colors, strength.filter(|s| s.voxels.size() == opacity.size()))
-                });
-                let shadowed = shadowed.collect();
+            Unlit::Layer(opacity, colors) => {
+                let strengths = || self.strengths.iter().flatten();
+                if let Some(other) = strengths().find(|s| s.voxels.size() != opacity.size()) {
+                    return Err(Error::Schedule(format!(
+                        "a light's strengths of {:?} voxels were made for gel of {:?}",
+                        other.voxels.size(),
+                        opacity.size()
+                    )));
+                }
+                let shadowed = colors.shadowed.iter().enumerate();
+                let strength = |i: usize| self.strengths.get(i).and_then(Option::as_ref);
+                let shadowed = shadowed.map(|(i, colors)| (colors, strength(i))).collect();
                 let lit = Relit { opacity, base: &colors.base, shadowed }.gel(self.texel);
                 // Both parts in the same numbers.
                 let texel = lit.kind();
                 let ambient = colors.ambient.as_ref().map(|ambient| {
                     Relit { opacity, base: ambient, shadowed: Vec::new() }.gel(texel)
                 });
-                Gel { lit, ambient }
+                Ok(Gel { lit, ambient })
             }
         }
     }

@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::components::TexelKind;
-use crate::light::strength::LightStrength;
+use crate::light::strength::VoxelStrength;
 use crate::volume::bricks::{Bricks, EDGE, Place};
 use crate::volume::gel::GelBricks;
 
@@ -19,7 +19,7 @@ pub struct Relit<'a> {
     /// What no shadow weakens.
     pub base: &'a Bricks<[f32; 3]>,
     /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
-    pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a LightStrength>)>,
+    pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
 }
 
 impl Relit<'_> {
@@ -48,7 +48,7 @@ impl Relit<'_> {
                 let colors = bricks.brick(place.brick).into_iter().flatten().flatten();
                 colors.fold(0.0, |most: f32, channel| if *channel > most { *channel } else { most })
             };
-            let full = |strength: Option<&LightStrength>| strength.map_or(1.0, |s| s.full);
+            let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, |s| s.full);
             let shadowed = self.shadowed.iter();
             let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
             channel(self.base) + shadowed > 1.0
@@ -101,8 +101,8 @@ impl Relit<'_> {
 }
 
 /// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
-fn betas(strength: Option<&LightStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
-    let Some(LightStrength { voxels, full, .. }) = strength else { return [1.0; EDGE] };
+fn betas(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
+    let Some(VoxelStrength { voxels, full }) = strength else { return [1.0; EDGE] };
     let Some(stored) = voxels.brick(brick) else { return [0.0; EDGE] };
     std::array::from_fn(|x| f32::from(stored[within + x]) / 65535.0 * full)
 }
@@ -161,7 +161,7 @@ mod tests {
         let [base, first, second] = [[0.1, 0.2, 0.3], [0.4, 0.0, 0.0], [0.0, 0.0, 0.5]]
             .map(|color| colors(&opacity, color));
         let half = opacity.map(|_, _, made| made.fill(32768));
-        let strength = LightStrength { voxels: half, full: 0.5, buffer: None };
+        let strength = VoxelStrength { voxels: half, full: 0.5 };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
         let gel = Relit { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
         let beta = 32768.0 / 65535.0 * 0.5;

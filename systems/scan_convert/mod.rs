@@ -15,9 +15,9 @@ use crate::view::observer;
 use crate::volume::bricks::{Bricks, VOXELS};
 use crate::volume::grid::Grid;
 use crate::volume::layer::{Coverage, Layer, LitColors};
-use crate::volume::seen;
+use crate::volume::scene_volumes::{around, volumes};
 
-/// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the scene's volume; and where a light
+/// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the volume that it is in; and where a light
 /// casts shadows, that of the hybrid tracer's polygons too: they cast theirs by it.
 pub struct ScanConvert;
 
@@ -43,14 +43,17 @@ impl System for ScanConvert {
     const READS: &'static [ProductKey] = &[];
 
     fn run(world: &World, out: &mut Outbox<'_, Coverage>) -> Result<(), Error> {
-        let (volume, shadows) = (seen::first(world), casts_shadows(world));
+        let (volumes, shadows) = (volumes(world), casts_shadows(world));
         let ambient_apart = observer::is_cued(world);
         let mut query =
             world.query::<(Entity, &Faces, &Surface, Option<&Voxelize>, Option<&Name>)>();
         for (entity, faces, surface, voxelize, name) in &mut query {
             out.watch().check()?;
             let name = name.map_or("polygon", |name| &name.0);
-            let Some((_, grid, unit)) = volume.filter(|_| voxelize.is_some() || shadows) else {
+            if voxelize.is_none() && !shadows {
+                continue;
+            }
+            let Some(volume) = around(&volumes, faces.middle()) else {
                 if voxelize.is_none() {
                     continue;
                 }
@@ -66,6 +69,7 @@ impl System for ScanConvert {
                 calibrated: voxelize.is_none_or(|voxelize| voxelize.calibrated),
             };
             let (faces, surface) = (faces.clone(), surface.clone());
+            let (grid, unit) = (volume.grid, volume.unit);
             let inputs =
                 Inputs { faces, surface, voxelize, grid, unit, lamps, ambient_apart, colorless };
             out.derive(entity, inputs, |inputs| {
@@ -77,23 +81,25 @@ impl System for ScanConvert {
     }
 
     fn plan(world: &World) -> Plan {
-        let Some((_, grid, _)) = seen::first(world) else {
+        let volumes = volumes(world);
+        if volumes.is_empty() {
             return Plan::absent("no volume to scan-convert polygons into");
-        };
+        }
         let (apart, shadows) = (usize::from(observer::is_cued(world)), casts_shadows(world));
         let colors = 1 + apart + Lamps::of(world, DVec3::ZERO).shadowed.len();
         let brick = (VOXELS * (size_of::<f32>() + colors * size_of::<[f32; 3]>())) as u64;
-        let table = grid.size.iter().map(|n| n.div_ceil(8) as u64).product::<u64>();
         let mut query = world.query::<(Entity, &Faces, Option<&Voxelize>)>().with::<&Surface>();
         let makes: Vec<_> = query
             .iter()
             .filter(|(_, _, voxelize)| voxelize.is_some() || shadows)
-            .map(|(entity, faces, _)| {
+            .filter_map(|(entity, faces, _)| {
+                let grid = around(&volumes, faces.middle())?.grid;
+                let table = grid.size.iter().map(|n| n.div_ceil(8) as u64).product::<u64>();
                 let flats = faces.0.par_iter().filter_map(|face| Flat::new(face, &grid));
                 // A brick near several faces is stored once.
                 let bricks =
                     flats.map(|flat| flat.bricks(REACH, grid.size).len() as u64).sum::<u64>();
-                (entity, bricks.min(table) * brick + table * 4 * (1 + colors as u64))
+                Some((entity, bricks.min(table) * brick + table * 4 * (1 + colors as u64)))
             })
             .collect();
         if makes.is_empty() {

@@ -62,7 +62,8 @@ fn cast(triangles: &[Vec<DVec3>], view: &View) -> Rendered {
 
 fn view(azimuth: f64, elevation: f64, roll: f64, size: u32, height: f64) -> View {
     let (focal_point, height_mm) = (Some([0.0; 3]), Some(height));
-    View { azimuth, elevation, roll, focal_point, height_mm, size: [size; 2], background: None }
+    let base = View { azimuth, elevation, roll, focal_point, ..View::default() };
+    View { height_mm, size: [size; 2], ..base }
 }
 
 /// How many positions are in the square, all of which met exactly one triangle, or none of which, outside.

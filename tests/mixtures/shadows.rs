@@ -120,6 +120,7 @@ fn a_volume_is_shadowed_by_a_hybrid_polygon_as_by_the_same_scan_converted() {
         };
         let (hybrid, scanned) = (cast(""), cast(VOXELIZE));
         let (a, b) = (strength(&hybrid).unwrap(), strength(&scanned).unwrap());
+        let (a, b) = (&a.volumes[0].1, &b.volumes[0].1);
         // Under the polygon the top of the ball is dimmer than beside it.
         let top = |x: usize| f64::from(a.voxels.value([x, 31, 54])) / 65535.0 * f64::from(a.full);
         assert!((top(26) / top(37) - (1.0 - opacity)).abs() < 0.03, "{} {}", top(26), top(37));

@@ -69,7 +69,8 @@ fn leak(world: &World) -> f32 {
         for (_, voxel) in place.voxels().filter(|(within, _)| brick[*within] > 0.5) {
             let outward = -Vec3::from(gradient.0[grid.offset(voxel)]).normalize_or_zero();
             if outward.dot(toward) < -0.5 {
-                sum += f32::from(strength.voxels.value(voxel)) / 65535.0 * strength.full;
+                sum += f32::from(strength.volumes[0].1.voxels.value(voxel)) / 65535.0
+                    * strength.volumes[0].1.full;
                 count += 1.0;
             }
         }

@@ -1,20 +1,25 @@
 //! Closed forms through the whole of preparation: balls, shadows, cuts and paint.
 
 use gelray::components::{CastsShadow, Clip, DepthCue, Material, Order, TexelKind, Toward};
-use gelray::light::strength;
-use gelray::light::strength::LightStrength;
+use gelray::light::strength::{LightStrength, VoxelStrength};
 use gelray::shared::Shared;
 use gelray::volume::bricks::Bricks;
 use gelray::volume::gel::Gel;
 use gelray::volume::grid::{Grid, Painted};
 use gelray::volume::layer::{Composite, Layer, LitColors, Opacity};
 use glam::{Vec3, Vec4};
-use hecs::World;
+use hecs::{Entity, World};
 
 use super::{
     Ball, RADIUS, ball, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume, texel,
     voxels,
 };
+
+/// A light's strengths in one volume.
+fn lit(volume: Entity, voxels: Bricks<u16>, full: f32) -> LightStrength {
+    let strength = VoxelStrength { voxels, full };
+    LightStrength { volumes: vec![(volume, strength)], buffers: Vec::new() }
+}
 
 #[test]
 fn a_ball_is_a_shell_of_the_stated_thickness_lit_along_its_radii() {
@@ -84,9 +89,7 @@ fn the_strength_of_each_light_weakens_its_own_color_in_the_order_of_the_scene() 
     let unshadowed = world.get::<&Gel>(volume).unwrap().lit.clone();
     let opacity = world.get::<&Opacity>(volume).unwrap().voxels.clone();
     let quarter: Bricks<u16> = opacity.map(|_, _, made| made.fill(65535));
-    world
-        .insert_one(side, strength::LightStrength { voxels: quarter, full: 0.25, buffer: None })
-        .unwrap();
+    world.insert_one(side, lit(volume, quarter, 0.25)).unwrap();
     prepare(&mut world);
     let colors = world.get::<&LitColors>(volume).unwrap();
     let gel = world.get::<&Gel>(volume).unwrap();
@@ -149,12 +152,7 @@ fn painted_voxels_keep_their_colors_whatever_the_lights() {
     let entity = world.spawn((Order(0), grid, painted));
     let light = spawn_light(&mut world, 1, Toward::Direction([0.0, 0.0, 1.0]));
     let clear = Bricks::make(grid.size, |_, _| true);
-    world
-        .insert(
-            light,
-            (CastsShadow::default(), LightStrength { voxels: clear, full: 1.0, buffer: None }),
-        )
-        .unwrap();
+    world.insert(light, (CastsShadow::default(), lit(entity, clear, 1.0))).unwrap();
     spawn_view(&mut world, &grid);
     prepare(&mut world);
     let gel = world.get::<&Gel>(entity).unwrap();

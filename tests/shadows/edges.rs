@@ -153,7 +153,7 @@ fn a_bias_of_two_voxels_takes_the_speckle_off_a_noisy_surface() {
         let mean = lit.iter().sum::<f64>() / lit.len() as f64;
         let spread = lit.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / lit.len() as f64;
         let under = |depth: f64| {
-            let buffer = strength.buffer.as_ref().unwrap();
+            let buffer = &strength.buffers[0];
             let leak = |seed: u64| {
                 let aside = DVec3::from([0, 1, 2].map(|i| noise(3 * seed + i) - 0.5)) * 0.8;
                 let normal = (toward + aside).normalize();

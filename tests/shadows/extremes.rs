@@ -10,7 +10,7 @@ use glam::DVec3;
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes, noise, point, voxels};
 
 fn sound(strength: &LightStrength, size: [usize; 3]) -> bool {
-    let full = f64::from(strength.full);
+    let full = f64::from(strength.volumes[0].1.full);
     let within = |beta: f64| beta.is_finite() && (0.0..=full * (1.0 + 1e-6)).contains(&beta);
     let far = [DVec3::splat(1e12), DVec3::splat(-1e300), DVec3::new(1e5, 0.0, -3.0), DVec3::NAN];
     full.is_finite()
@@ -46,7 +46,7 @@ fn what_is_opaque_lets_nothing_through_and_what_is_clear_everything() {
     assert_eq!(at(&strength, DVec3::new(3.0, 3.0, -50.0)), 0.0);
     assert_eq!(at(&strength, DVec3::new(30.0, 3.0, -50.0)), 1.0);
     let strength = Scene::new(cubes([8; 3]), [0.3, 0.5, 1.0], NO_BIAS, |_| 0.0).buffered().sweep();
-    assert_eq!(strength.voxels.stored().count(), 0);
+    assert_eq!(strength.volumes[0].1.voxels.stored().count(), 0);
     assert!(voxels([8; 3]).all(|v| at(&strength, point(v)) == 1.0));
 }
 
@@ -92,7 +92,13 @@ fn one_two_and_seven_threads_make_equal_bytes() {
         };
         let [one, two, seven] = [1, 2, 7].map(sweep);
         for other in [two, seven] {
-            assert!(one.voxels.stored().map(|b| b.1).eq(other.voxels.stored().map(|b| b.1)));
+            assert!(
+                one.volumes[0].1.voxels.stored().map(|b| b.1).eq(other.volumes[0]
+                    .1
+                    .voxels
+                    .stored()
+                    .map(|b| b.1))
+            );
             assert!(voxels(size).all(|v| at(&one, point(v) + 0.3) == at(&other, point(v) + 0.3)));
         }
     }

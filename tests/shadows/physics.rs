@@ -81,7 +81,7 @@ fn strength_falls_off_with_distance_from_where_the_light_meets_the_bounding_sphe
         assert!((beta(&strength, voxel) - expected).abs() < 3e-5, "{voxel:?}");
         assert!((at(&strength, point(voxel)) - falloff(point(voxel))).abs() < 3e-5);
     }
-    assert!((f64::from(strength.full) - corners[0]).abs() < 1e-6);
+    assert!((f64::from(strength.volumes[0].1.full) - corners[0]).abs() < 1e-6);
 }
 
 #[test]

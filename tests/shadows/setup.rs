@@ -81,12 +81,16 @@ impl Scene {
 
 /// β at a voxel.
 pub fn beta(strength: &LightStrength, voxel: [usize; 3]) -> f64 {
-    f64::from(strength.voxels.value(voxel)) / 65535.0 * f64::from(strength.full)
+    f64::from(strength.volumes[0].1.voxels.value(voxel)) / 65535.0
+        * f64::from(strength.volumes[0].1.full)
 }
 
 /// β at a world point, without bias.
 pub fn at(strength: &LightStrength, world: DVec3) -> f64 {
-    f64::from(strength.buffer.as_ref().unwrap().at(world))
+    {
+        assert!(!strength.buffers.is_empty());
+        f64::from(strength.at(world))
+    }
 }
 
 pub fn voxels(size: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {

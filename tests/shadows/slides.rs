@@ -100,6 +100,6 @@ fn a_black_slide_leaves_no_light_and_no_nan() {
     let mut scene = Scene::new(cubes([9; 3]), [0.0, 1.0, 1.0], NO_BIAS, |_| 0.1);
     scene = scene.projecting(dark).buffered();
     let strength = scene.sweep();
-    assert!(strength.full > 0.0 && strength.voxels.value([4, 4, 4]) == 0);
+    assert!(strength.volumes[0].1.full > 0.0 && strength.volumes[0].1.voxels.value([4, 4, 4]) == 0);
     assert_eq!(at(&strength, DVec3::splat(4.0)), 0.0);
 }

@@ -65,7 +65,7 @@ fn hybrid_polygons_cast_shadows_and_receive_them() {
     let size = [16; 3];
     let plain = |v: [usize; 3]| if v[2] == 11 { 0.2 } else { 0.1 };
     let mut scene = Scene::new(cubes(size), [0.0, 0.0, 1.0], NO_BIAS, plain);
-    assert!(scene.sweep().buffer.is_none());
+    assert!(scene.sweep().buffers.is_empty());
     let sheet = bricks(size, |v| if v[2] == 11 { 0.5 } else { 0.0 });
     let colors =
         LitColors { base: Bricks::make(size, |_, _| false), shadowed: vec![], ambient: None };
@@ -79,7 +79,7 @@ fn hybrid_polygons_cast_shadows_and_receive_them() {
     let voxelize = Voxelize { matte: Matte::Over, calibrated: true };
     scene.world.insert_one(polygon, voxelize).unwrap();
     let strength = scene.sweep();
-    assert!(strength.buffer.is_none());
+    assert!(strength.buffers.is_empty());
     assert!((beta(&strength, [8, 8, 3]) - expected(0.8)).abs() < 1e-5);
 }
 
@@ -89,7 +89,7 @@ fn only_an_attenuated_shaft_asks_for_the_buffer() {
     for attenuated in [false, true] {
         let shaft = Shaft { opacity: 0.1, color: None, attenuated };
         scene.world.insert_one(scene.light, shaft).unwrap();
-        assert_eq!(scene.sweep().buffer.is_some(), attenuated);
+        assert_eq!(!scene.sweep().buffers.is_empty(), attenuated);
     }
 }
 

@@ -18,20 +18,18 @@ pub struct Falloff {
 }
 
 impl Falloff {
-    /// The falloff of a light towards `toward` (unit vector) over `grid`.
+    /// The falloff of a light towards `toward` (unit vector) over the volumes on `grids`, at least one.
     ///
-    /// `k_1 + k_2 d` must be finite and above 0 everywhere in the volume; the error is a sentence without a subject.
-    pub fn new(grid: &Grid, toward: DVec3, k1: f64, k2: f64) -> Result<Self, String> {
-        let corners = grid.corners();
-        let center = corners.iter().sum::<DVec3>() / 8.0;
+    /// `k_1 + k_2 d` must be finite and above 0 everywhere in them; the error is a sentence without a subject.
+    pub fn new(grids: &[Grid], toward: DVec3, k1: f64, k2: f64) -> Result<Self, String> {
+        let corners: Vec<_> = grids.iter().flat_map(Grid::corners).collect();
+        let center = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let radius = corners.iter().map(|c| c.distance(center)).fold(0.0, f64::max);
         let along = -toward;
         let enter = along.dot(center) - radius;
-        let distances = corners.map(|c| along.dot(c) - enter);
-        let range = [
-            distances.iter().copied().fold(f64::INFINITY, f64::min),
-            distances.iter().copied().fold(0.0, f64::max),
-        ];
+        let distances = corners.iter().map(|c| along.dot(*c) - enter);
+        let range =
+            [distances.clone().fold(f64::INFINITY, f64::min), distances.fold(0.0, f64::max)];
         let falloff = Self { along, enter, k1, k2, range };
         for d in range {
             let divisor = falloff.divisor(d);
@@ -43,6 +41,10 @@ impl Falloff {
         }
         Ok(falloff)
     }
+
+    /// A light that does not fall off: equation 3 divides it by 1.
+    pub const NONE: Self =
+        Self { along: DVec3::ZERO, enter: 0.0, k1: 1.0, k2: 0.0, range: [0.0; 2] };
 
     /// Distance `d` of a world point, before it is held within the volume.
     #[must_use]
@@ -78,7 +80,7 @@ mod tests {
 
     #[test]
     fn distance_counts_from_the_bounding_sphere_along_the_light() {
-        let falloff = Falloff::new(&grid(), DVec3::Z, 1.0, 0.5).unwrap();
+        let falloff = Falloff::new(&[grid()], DVec3::Z, 1.0, 0.5).unwrap();
         let radius = 75.0_f64.sqrt();
         assert!((falloff.distance(DVec3::splat(5.0)) - radius).abs() < 1e-12);
         let top = falloff.divisor(falloff.distance(DVec3::new(3.0, 4.0, 10.0)));
@@ -88,10 +90,10 @@ mod tests {
 
     #[test]
     fn a_falloff_that_reaches_zero_in_the_volume_is_refused() {
-        let problem = |k1, k2| Falloff::new(&grid(), DVec3::Z, k1, k2).unwrap_err();
+        let problem = |k1, k2| Falloff::new(&[grid()], DVec3::Z, k1, k2).unwrap_err();
         assert!(problem(1.0, -0.1).contains("above 0"));
         assert!(problem(0.0, 0.0).contains("k1"));
         assert!(problem(f64::NAN, 0.0).contains("NaN"));
-        Falloff::new(&grid(), DVec3::X, 1.0, -0.05).unwrap();
+        Falloff::new(&[grid()], DVec3::X, 1.0, -0.05).unwrap();
     }
 }

@@ -9,6 +9,9 @@ mod falloff;
 mod shear;
 mod slide;
 
+use glam::DVec3;
+use hecs::Entity;
+
 use crate::schedule::Product;
 use crate::volume::bricks::Bricks;
 pub use buffer::Buffer;
@@ -16,24 +19,51 @@ pub use falloff::Falloff;
 pub use shear::{Place, Shear, Window};
 pub use slide::{ProjectedBy, Slide};
 
-/// β of one light at every interesting voxel: 0 ..= 65535 stands for 0..=1 times `full`.
+/// β of one light: at every interesting voxel, and anywhere where something asks for that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightStrength {
-    /// The strengths, in the bricks of what is relit; 0 where a voxel of such a brick is not interesting.
+    /// β in each volume, in the order of the scene.
+    pub volumes: Vec<(Entity, VoxelStrength)>,
+    /// Whose product is β anywhere in space, where something asks for it: hybrid polygons that receive shadows, or a shaft
+    /// of light. One for each volume; empty where nothing asks.
+    pub buffers: Vec<Buffer>,
+}
+
+/// β of one light at every interesting voxel of a volume: 0 ..= 65535 stands for 0..=1 times `full`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VoxelStrength {
+    /// The strengths, in the bricks of what is lit; 0 where a voxel of such a brick is not interesting.
     pub voxels: Bricks<u16>,
     /// The strength that 65535 stands for: finite and above 0.
     pub full: f32,
-    /// β anywhere in space, where something asks for it: hybrid polygons that receive shadows, or a shaft of light.
-    pub buffer: Option<Buffer>,
 }
 
 impl Product for LightStrength {}
 
 impl LightStrength {
+    /// β in a volume; `None` where the light was not swept through it.
+    #[must_use]
+    pub fn of(&self, volume: Entity) -> Option<&VoxelStrength> {
+        self.volumes.iter().find(|(entity, _)| *entity == volume).map(|(_, strength)| strength)
+    }
+
+    /// β at a world point, without a bias: what comes through one volume, and through the next, and …; 1 without buffers.
+    #[must_use]
+    pub fn at(&self, world: DVec3) -> f32 {
+        self.buffers.iter().map(|buffer| buffer.at(world)).product()
+    }
+
+    /// How much nearer to the light the point is whose strength is used at a point, world units.
+    #[must_use]
+    pub fn bias(&self) -> f64 {
+        self.buffers.iter().map(|buffer| buffer.bias().length()).fold(0.0, f64::max)
+    }
+
     /// Bytes that the product takes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        self.voxels.bytes() + self.buffer.as_ref().map_or(0, Buffer::bytes)
+        let voxels = self.volumes.iter().map(|(_, strength)| strength.voxels.bytes());
+        voxels.chain(self.buffers.iter().map(Buffer::bytes)).sum()
     }
 }
 

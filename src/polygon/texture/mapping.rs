@@ -6,6 +6,7 @@ use super::Footprint;
 use crate::components::Textured;
 use crate::polygon::face::Face;
 use crate::view::camera::Camera;
+use crate::view::ray::Ray;
 
 /// Sines under this count as 0: a view along a polygon, corners on one line.
 const SLIGHT: f64 = 1e-6;
@@ -67,16 +68,22 @@ impl Mapping {
         DVec2::new(self.u.dot(from), self.v.dot(from))
     }
 
-    /// What a square of side `region_pixels` of the picture covers in the texture, carried along the parallel rays.
+    /// What a square of side `region_pixels` of the picture covers in the texture, carried along `ray` to its depth `depth`.
     ///
-    /// It is the same all over a face in a view. Of a face seen edge-on it is huge, but finite.
+    /// In a parallel view it is the same all over a face. Of a face seen edge-on it is huge, but finite.
     #[must_use]
-    pub fn footprint(&self, camera: &Camera, region_pixels: f64) -> Footprint {
-        let facing = self.normal.dot(camera.forward);
+    pub fn footprint(
+        &self,
+        camera: &Camera,
+        (ray, depth): (&Ray, f64),
+        region_pixels: f64,
+    ) -> Footprint {
+        let facing = self.normal.dot(ray.along);
         let facing = facing.abs().max(SLIGHT).copysign(facing);
+        let pixel = camera.pixel / camera.magnification(depth);
         let side = |direction: DVec3| {
-            let along = camera.forward * (self.normal.dot(direction) / facing);
-            let on_plane = (direction - along) * (camera.pixel * region_pixels);
+            let along = ray.along * (self.normal.dot(direction) / facing);
+            let on_plane = (direction - along) * (pixel * region_pixels);
             DVec2::new(self.u.dot(on_plane), self.v.dot(on_plane))
         };
         Footprint::new(side(camera.right), side(-camera.up))
@@ -115,7 +122,7 @@ mod tests {
     fn camera(forward: DVec3) -> Camera {
         let right = forward.any_orthonormal_vector();
         let (focal, size) = (DVec3::new(0.3, 0.2, 0.1), [100, 80]);
-        Camera { right, up: right.cross(forward), forward, focal, pixel: 0.125, size }
+        Camera { right, up: right.cross(forward), forward, focal, pixel: 0.125, size, eye: None }
     }
 
     #[test]
@@ -149,7 +156,7 @@ mod tests {
                 let ray = camera.origin(DVec2::new(x, y));
                 mapping.at(ray + camera.forward * ((1.0 - ray.y) / camera.forward.y))
             };
-            let sides = mapping.footprint(&camera, 0.5).sides();
+            let sides = mapping.footprint(&camera, (&camera.ray(DVec2::ZERO), 0.0), 0.5).sides();
             assert!(sides.x_axis.abs_diff_eq(uv(7.5, 3.0) - uv(7.0, 3.0), 1e-12));
             assert!(sides.y_axis.abs_diff_eq(uv(7.0, 3.5) - uv(7.0, 3.0), 1e-12));
         }
@@ -158,7 +165,11 @@ mod tests {
     #[test]
     fn a_face_seen_edge_on_has_a_footprint_that_is_huge_and_finite() {
         let mapping = Mapping::new(&face(), &textured(None, [1.0, 1.0])).unwrap();
-        let sides = mapping.footprint(&camera(DVec3::X), 1.0).sides();
+        let sides = {
+            let camera = camera(DVec3::X);
+            mapping.footprint(&camera, (&camera.ray(DVec2::ZERO), 0.0), 1.0)
+        }
+        .sides();
         assert!(sides.is_finite());
         assert!(sides.x_axis.length().max(sides.y_axis.length()) > 1e3);
     }

@@ -22,7 +22,7 @@ fn the_samples_of_a_ray_are_those_within_the_domain() {
         let camera = camera(azimuth, elevation, 0.0);
         let walk = Walk::new(&grid, &camera, 0.25).unwrap();
         let origin = camera.origin(DVec2::new(190.0, 190.0));
-        let samples = walk.enter(origin).unwrap();
+        let samples = walk.enter(&camera.ray(DVec2::new(190.0, 190.0))).unwrap();
         let place = |k: i64| {
             let world = origin + camera.forward * (0.25 * (k as f64 + 0.5));
             grid.world_to_index().transform_point3(world)
@@ -43,8 +43,9 @@ fn a_ray_beside_the_domain_meets_no_sample() {
     let grid = Grid::axis_aligned([5; 3], [1.0; 3], [-2.0; 3]).unwrap();
     let camera = camera(0.0, 0.0, 0.0);
     let walk = Walk::new(&grid, &camera, 1.0).unwrap();
-    assert_eq!(walk.enter(DVec3::new(2.001, 0.0, 0.0)), None);
-    let along_the_face = walk.enter(DVec3::new(2.0, 0.0, 0.0)).unwrap();
+    let ray = |origin: DVec3| Ray { origin, along: camera.forward };
+    assert_eq!(walk.enter(&ray(DVec3::new(2.001, 0.0, 0.0))), None);
+    let along_the_face = walk.enter(&ray(DVec3::new(2.0, 0.0, 0.0))).unwrap();
     assert_eq!(along_the_face.end - along_the_face.first, 4);
 }
 

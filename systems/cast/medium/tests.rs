@@ -4,11 +4,12 @@ use glam::{DAffine3, DMat3, DQuat, DVec2};
 use proptest::array::uniform3;
 use proptest::prelude::*;
 
+use super::super::lanes;
 use super::*;
 use crate::components::View;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
-use crate::volume::gel::Texels;
+use crate::volume::gel::{CELLS, Texels};
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;
 
@@ -36,9 +37,9 @@ fn cases() -> impl Strategy<Value = Case> {
     let steps = prop_oneof![Just(1.0), Just(0.5), Just(0.125), 1e-3..0.1, 0.1..9.0];
     let placed = (uniform3(2..=90_usize), uniform3(0.3..2.0), uniform3(-0.6..0.6), any::<u8>());
     let held = prop_oneof![Just([50, 2]), Just([300, 1]), Just([1000, 20]), Just([10, 500])];
-    let view = (angles(), angles(), angles());
+    let view = (angles(), angles(), angles(), prop_oneof![Just(None), (0.1..150.0).prop_map(Some)]);
     (placed, view, steps, any::<u64>(), held, any::<bool>()).prop_map(
-        |((size, spacing, shear, flips), (azimuth, elevation, roll), step, seed, held, whole)| {
+        |((size, spacing, shear, flips), (azimuth, elevation, roll, field_of_view), step, seed, held, whole)| {
             let flip = |axis: usize| if flips >> axis & 1 == 1 { -1.0 } else { 1.0 };
             let spacing = if whole { [1.0; 3] } else { spacing };
             let scale = std::array::from_fn::<_, 3, _>(|axis| flip(axis) * spacing[axis]);
@@ -52,7 +53,7 @@ fn cases() -> impl Strategy<Value = Case> {
             let matrix3 = if flips & 8 == 8 { turned * scale } else { scale };
             let translation = matrix3 * -DVec3::from(size.map(|n| (n - 1) as f64 / 2.0));
             let grid = Grid::new(size, DAffine3 { matrix3, translation }).unwrap();
-            let view = View { azimuth, elevation, roll, size: [5; 2], ..View::default() };
+            let view = View { azimuth, elevation, roll, field_of_view, size: [5; 2], ..View::default() };
             let distance = step * grid.spacing().min_element();
             Case { grid, view, distance, seed, held }
         },
@@ -90,23 +91,28 @@ impl Case {
     }
 }
 
-type Taken = Vec<(i64, [u32; 4])>;
+type Taken = Vec<(i64, [u64; 4])>;
 
-/// Every sample of a ray that is not empty: its number, and the bits of what was sampled.
-fn taken(volume: &Volume<'_, [f32; 4]>, mut cursor: Cursor, until: i64) -> Taken {
-    let (mut taken, mut counts) = (Vec::new(), Counts::default());
-    for until in [until, i64::MAX] {
-        loop {
-            let mut sample = None;
-            volume.visit(&mut cursor, until, &mut counts, |seen| {
-                sample = Some(seen);
-                false
-            });
-            let Some(sample) = sample else { break };
-            if sample != Vec4::ZERO {
-                taken.push((cursor.k - 1, sample.to_array().map(f32::to_bits)));
+/// Every slab of a ray that is not empty: its number, and the bits of what is in it. From a number on where the rays are
+/// asked to seek anew, as where a polygon interrupts them.
+fn taken(medium: &Medium<'_, [f32; 4]>, packet: &Packet<'_>, lane: usize, anew: i64) -> Taken {
+    let (mut taken, mut counts, mut entered) = (Vec::new(), Counts::default(), Entered::default());
+    let [mut k, end] = medium.enter(packet, &mut entered);
+    let lanes = lanes::first(packet.rays.len());
+    while k < end {
+        let sought = medium.seek(&mut entered, k, &mut counts);
+        if k < anew && anew < sought {
+            k = anew;
+            continue;
+        }
+        k = sought;
+        if k < end && medium.meet(&mut entered, k, lanes, &mut counts) >> lane & 1 == 1 {
+            let (color, opacity) = medium.slab(&mut entered, k, lane);
+            if (color, opacity) != (DVec3::ZERO, 0.0) {
+                taken.push((k, color.extend(opacity).to_array().map(f64::to_bits)));
             }
         }
+        k += 1;
     }
     taken
 }
@@ -120,19 +126,24 @@ proptest! {
         let pyramid = Pyramid::of(&gel);
         let camera = Camera::new(&case.view, &Extent::of(case.grid.corners()).unwrap());
         let walk = Walk::new(&case.grid, &camera, case.distance).unwrap();
-        let volume = |pyramid| Volume {
-            walk, gel: gel.slices(), ambient: None, pyramid, ratio: 1.0, distance: case.distance, cue: None, dust: None,
+        let medium = |pyramid| Medium {
+            walk, gel: gel.slices(), ambient: None, pyramid, occupied: None, ratio: 1.0, distance: case.distance, cue: None,
+            dust: None,
         };
-        for (x, y, until) in places {
-            // Some rays through the very middle, where views along an axis run in planes of voxels.
-            let window = if until == 0 { DVec2::splat(2.5) } else { DVec2::new(x, y) * 5.0 };
-            let Some(samples) = walk.enter(camera.origin(window)) else { continue };
-            let cursor = Cursor::new(&walk, samples, [i64::MIN, i64::MAX], DVec3::ZERO);
-            let all = taken(&volume(None), cursor, i64::MAX);
-            prop_assert!(all.iter().all(|(k, _)| (samples.first..samples.end).contains(k)));
-            // Wherever a polygon interrupts the walk.
-            let until = samples.first + i64::from(until);
-            prop_assert_eq!(&taken(&volume(Some(pyramid.slices())), cursor, until), &all);
+        let (all, some) = (medium(None), medium(Some(pyramid.slices())));
+        // Some rays through the very middle, where views along an axis run in planes of voxels; and packets of neighbours.
+        let rays: Vec<_> = places.iter().map(|&(x, y, until)| {
+            camera.ray(if until == 0 { DVec2::splat(2.5) } else { DVec2::new(x, y) * 5.0 })
+        }).collect();
+        for (lane, (ray, (.., until))) in rays.iter().zip(&places).enumerate() {
+            let Some(samples) = walk.enter(ray) else { continue };
+            let alone = Packet { rays: std::slice::from_ref(ray), beams: &[0] };
+            let expected = taken(&all, &alone, 0, i64::MIN);
+            prop_assert!(expected.iter().all(|(k, _)| (samples.first..samples.end).contains(k)));
+            let anew = samples.first + i64::from(*until);
+            prop_assert_eq!(&taken(&some, &alone, 0, anew), &expected);
+            let together = Packet { rays: &rays, beams: &[0; LANES][..rays.len()] };
+            prop_assert_eq!(&taken(&some, &together, lane, anew), &expected);
         }
     }
 
@@ -142,9 +153,9 @@ proptest! {
         grid.index_to_world.translation += DVec3::splat(moved);
         let camera = Camera::new(&case.view, &Extent::of(grid.corners()).unwrap());
         let walk = Walk::new(&grid, &camera, case.distance).unwrap();
-        let origin = camera.origin(DVec2::new(x, y) * 5.0);
+        let ray = camera.ray(DVec2::new(x, y) * 5.0);
         let inside = |k: i64, slack: f64| {
-            let world = origin + camera.forward * ((k as f64 + 0.5) * case.distance);
+            let world = ray.at((k as f64 + 0.5) * case.distance);
             let index = grid.world_to_index().transform_point3(world);
             let last = DVec3::from(grid.size.map(|n| (n - 1) as f64));
             index.min(last - index).min_element() > slack
@@ -152,10 +163,11 @@ proptest! {
         let reach = (case.grid.corners()[0].length() / case.distance) as i64 + 2;
         // A ray has few thousand samples; of more, some stretches.
         let numbers = (-reach..=reach).step_by(1 + reach as usize / 20_000);
-        let entered = walk.enter(origin);
+        let entered = walk.enter(&ray);
         for k in numbers {
             let taken = entered.is_some_and(|samples| (samples.first..samples.end).contains(&k));
-            prop_assert!(taken || !inside(k, 1e-6), "sample {} is left out", k);
+            let seen = camera.eye.is_none_or(|eye| (k as f64 + 1.0) * case.distance > 1e-9 - eye);
+            prop_assert!(taken || !seen || !inside(k, 1e-6), "sample {} is left out", k);
             prop_assert!(!taken || inside(k, -1e-6), "sample {} is outside", k);
         }
     }

@@ -1,0 +1,48 @@
+//! What the rays of a view meet of volumes: none, one, or several whose gels overlap.
+
+use glam::DVec3;
+
+use super::lanes::{Lanes, Packet};
+use crate::view::samples::Counts;
+
+/// Gel as a packet of rays meets it, sample by sample. All rays of a view have their samples at the same depths.
+pub trait Media: Sync {
+    /// Where the rays of a packet are in it; taken from packet to packet, so that nothing is allocated for one.
+    type Entered: Default + Send;
+
+    /// Lets a packet enter; the sample numbers `[first, end)` outside which none of its rays meets gel.
+    fn enter(&self, packet: &Packet<'_>, entered: &mut Self::Entered) -> [i64; 2];
+
+    /// The first sample from number `k` on that some ray may meet gel at; all before it are empty for all of them.
+    fn seek(&self, entered: &mut Self::Entered, k: i64, counts: &mut Counts) -> i64;
+
+    /// Which of `lanes` meet gel at sample `k`, which no other sample is asked for until [`slab`](Media::slab) was.
+    fn meet(&self, entered: &mut Self::Entered, k: i64, lanes: Lanes, counts: &mut Counts)
+    -> Lanes;
+
+    /// The gel of the slab around sample `k` for a ray that meets it there: associated colour and opacity.
+    fn slab(&self, entered: &mut Self::Entered, k: i64, lane: usize) -> (DVec3, f64);
+}
+
+/// A scene without a volume.
+pub struct Nothing;
+
+impl Media for Nothing {
+    type Entered = ();
+
+    fn enter(&self, _: &Packet<'_>, (): &mut ()) -> [i64; 2] {
+        [i64::MAX; 2]
+    }
+
+    fn seek(&self, (): &mut (), _: i64, _: &mut Counts) -> i64 {
+        i64::MAX
+    }
+
+    fn meet(&self, (): &mut (), _: i64, _: Lanes, _: &mut Counts) -> Lanes {
+        0
+    }
+
+    fn slab(&self, (): &mut (), _: i64, _: usize) -> (DVec3, f64) {
+        (DVec3::ZERO, 0.0)
+    }
+}

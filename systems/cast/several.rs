@@ -1,0 +1,121 @@
+//! Several volumes, each on a grid of its own: where their gels overlap, optical depths add.
+
+use glam::{DVec3, Vec4};
+
+use super::lanes::{Lanes, Packet};
+use super::media::Media;
+use super::medium::{Entered, Medium, slab};
+use super::shaft::Dust;
+use crate::view::composite::overlap;
+use crate::view::samples::Counts;
+
+/// A volume in whatever numbers its gel is kept.
+pub enum AnyMedium<'a> {
+    /// 32-bit floats.
+    F32(Medium<'a, [f32; 4]>),
+    /// 16-bit fixed point.
+    U16(Medium<'a, [u16; 4]>),
+    /// 8-bit fixed point.
+    U8(Medium<'a, [u8; 4]>),
+}
+
+/// The volumes of a scene.
+pub struct Several<'a> {
+    /// In the order of the scene, which no picture depends on.
+    pub media: Vec<AnyMedium<'a>>,
+    /// Δ, world units.
+    pub distance: f64,
+    /// Dust in shafts of light, wherever some volume is: as thick as for the first that is there.
+    pub dust: Option<&'a Dust>,
+}
+
+/// Where the rays of a packet are in several volumes.
+#[derive(Default)]
+pub struct EnteredAll {
+    each: Vec<Within>,
+    /// The slabs that overlap, of the ray that was asked for last.
+    parts: Vec<(DVec3, f64)>,
+}
+
+/// Where they are in one of them.
+#[derive(Default)]
+struct Within {
+    entered: Entered,
+    range: [i64; 2],
+    /// The next sample at which a ray may meet its gel.
+    next: i64,
+    /// Who meets its gel at the last sample asked for.
+    met: Lanes,
+}
+
+macro_rules! with_medium {
+    ($medium:expr, $inner:ident => $body:expr) => {
+        match $medium {
+            AnyMedium::F32($inner) => $body,
+            AnyMedium::U16($inner) => $body,
+            AnyMedium::U8($inner) => $body,
+        }
+    };
+}
+
+impl Media for Several<'_> {
+    type Entered = EnteredAll;
+
+    fn enter(&self, packet: &Packet<'_>, entered: &mut EnteredAll) -> [i64; 2] {
+        entered.each.resize_with(self.media.len(), Within::default);
+        let mut all = [i64::MAX, i64::MIN];
+        for (medium, within) in self.media.iter().zip(&mut entered.each) {
+            within.range = with_medium!(medium, inner => inner.enter(packet, &mut within.entered));
+            within.next = i64::MIN;
+            all = [all[0].min(within.range[0]), all[1].max(within.range[1])];
+        }
+        all
+    }
+
+    fn seek(&self, entered: &mut EnteredAll, k: i64, counts: &mut Counts) -> i64 {
+        let mut least = i64::MAX;
+        for (medium, within) in self.media.iter().zip(&mut entered.each) {
+            if within.next < k {
+                let from = k.max(within.range[0]);
+                let found =
+                    with_medium!(medium, inner => inner.seek(&mut within.entered, from, counts));
+                within.next = if found < within.range[1] { found } else { i64::MAX };
+            }
+            least = least.min(within.next);
+        }
+        least
+    }
+
+    fn meet(
+        &self,
+        entered: &mut EnteredAll,
+        k: i64,
+        lanes: Lanes,
+        counts: &mut Counts,
+    ) -> Lanes {
+        let mut met = 0;
+        for (medium, within) in self.media.iter().zip(&mut entered.each) {
+            within.met = 0;
+            if within.next == k {
+                within.met =
+                    with_medium!(medium, inner => inner.meet(&mut within.entered, k, lanes, counts));
+            }
+            met |= within.met;
+        }
+        met
+    }
+
+    fn slab(&self, entered: &mut EnteredAll, k: i64, lane: usize) -> (DVec3, f64) {
+        let EnteredAll { each, parts } = entered;
+        parts.clear();
+        let there = self.media.iter().zip(each).filter(|(_, within)| within.met >> lane & 1 == 1);
+        for (medium, within) in there {
+            if let Some(dust) = self.dust.filter(|_| parts.is_empty()) {
+                let (world, ratio) = within.entered.place(lane, k, self.distance);
+                parts.push(slab(dust.join(Vec4::ZERO, world), ratio));
+            }
+            parts.push(with_medium!(medium, inner => inner.slab(&mut within.entered, k, lane)));
+        }
+        overlap(parts)
+    }
+}

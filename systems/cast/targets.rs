@@ -1,0 +1,66 @@
+//! What refinement asks for: rays at places of the picture, and the three colours that they bring back.
+
+use glam::DVec2;
+
+use crate::view::samples::Counts;
+
+/// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RayColors {
+    /// C.
+    pub full: [f32; 4],
+    /// C_A.
+    pub attenuated: [f32; 4],
+    /// C_G.
+    pub geometric: [f32; 4],
+}
+
+/// Where a ray is cast.
+#[derive(Debug, Clone, Copy)]
+pub struct Target {
+    /// The number of its beam.
+    pub beam: usize,
+    /// Its window position, pixels.
+    pub window: DVec2,
+    /// The distance to the next ray of its level, in positions: what it stands for.
+    pub step: usize,
+}
+
+/// Casts rays.
+pub trait Caster: Sync {
+    /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
+    type Scratch: Default;
+    /// Casts the rays at `targets`, neighbours in the picture, and puts what they saw into `rays`, which is as long.
+    fn cast(
+        &self,
+        targets: &[Target],
+        rays: &mut [RayColors],
+        scratch: &mut Self::Scratch,
+        counts: &mut Counts,
+    );
+}
+
+/// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
+pub struct Outlines {
+    /// Side of the flagged squares, in positions.
+    pub side: usize,
+    /// Flagged squares across.
+    pub across: usize,
+    /// The flags, x fastest.
+    pub crossed: Vec<bool>,
+}
+
+impl Outlines {
+    /// Whether an outline crosses the region of `side` positions from `(i, j)` on.
+    pub fn cross(&self, i: usize, j: usize, side: usize) -> bool {
+        let cells = (side / self.side).max(1);
+        let down = self.crossed.len() / self.across;
+        (j / self.side..(j / self.side + cells).min(down)).any(|y| {
+            let first = i / self.side;
+            self.crossed
+                [y * self.across + first..y * self.across + (first + cells).min(self.across)]
+                .contains(&true)
+        })
+    }
+}
+
