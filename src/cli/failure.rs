@@ -2,8 +2,12 @@
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use gelray::Error;
+use miette::NamedSource;
+
+use super::escaped::escaped;
 
 /// The work failed: the scene, the data, the disc.
 const FAILED: u8 = 1;
@@ -61,15 +65,30 @@ impl Failure {
 fn explain(error: &Error) {
     match error {
         Error::Scene(fault) if fault.span.is_some() && std::io::stderr().is_terminal() => {
-            tell(format_args!("{:?}", miette::Report::new(fault.as_ref().clone())));
+            let mut fault = fault.as_ref().clone();
+            fault.message = escaped(&fault.message);
+            fault.place = escaped(&fault.place);
+            fault.text = Arc::new(NamedSource::new(&fault.place, spelled(fault.text.inner())));
+            // Colors of the excerpt are our own commands to the terminal.
+            let _ = writeln!(std::io::stderr(), "{:?}", miette::Report::new(fault));
         }
         error => tell(format_args!("error: {error}")),
     }
 }
 
+/// A scene's text with each control character as one byte, so that what is marked stays where it is.
+fn spelled(text: &str) -> String {
+    let safe = |letter: char| match letter {
+        '\n' | '\t' | '\r' => letter,
+        _ if letter.is_ascii_control() => '?',
+        _ => letter,
+    };
+    text.chars().map(safe).collect()
+}
+
 /// A line on standard error; a closed one is no reason to stop.
 pub fn tell(line: std::fmt::Arguments) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", escaped(&line.to_string()));
 }
 
 /// Text on standard output.

@@ -5,6 +5,7 @@
 
 mod bytes;
 mod compare;
+mod escaped;
 mod failure;
 mod flags;
 mod info;
@@ -14,6 +15,7 @@ mod outputs;
 mod plan;
 mod progress;
 mod render;
+mod same_file;
 mod scenes;
 mod schema;
 mod stats;

@@ -1,6 +1,6 @@
 //! Files out: checked before any work is done, so that no hour of rendering ends at a folder that is not there.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use gelray::Error;
 use gelray::formats::pictures::{PICTURE_FORMATS, check_output, format_of};
@@ -8,6 +8,7 @@ use gelray::formats::whole::{check_writable, write_whole};
 
 use super::failure::{Failure, print};
 use super::flags::Flags;
+use super::same_file::same_file;
 
 /// Finds out whether a picture could be written; an extension that no picture has is a misuse.
 pub fn check_picture(path: &Path) -> Result<(), Failure> {
@@ -25,18 +26,20 @@ pub fn check(flags: &Flags, inputs: &[&Path]) -> Result<(), Failure> {
     let named = flags.outputs();
     for (at, (flag, path)) in named.iter().enumerate() {
         check_writable(path)?;
-        if !path.metadata().map_or(true, |found| found.is_file()) {
-            continue;
-        }
-        let place = place(path);
-        if let Some((other, _)) = named[..at].iter().find(|(_, other)| self::place(other) == place)
-        {
+        if let Some((other, _)) = named[..at].iter().find(|(_, other)| same_file(other, path)) {
             return Err(Failure::Misused(format!(
                 "{other} and {flag} both name {}; give each a file of its own",
                 path.display()
             )));
         }
-        if inputs.iter().any(|input| self::place(input) == place) {
+    }
+    spare(flags, inputs)
+}
+
+/// Finds out that no file that is to be written is one that is read, whatever names and links lead to it.
+pub fn spare<P: AsRef<Path>>(flags: &Flags, inputs: &[P]) -> Result<(), Failure> {
+    for (flag, path) in flags.outputs() {
+        if inputs.iter().any(|input| same_file(input.as_ref(), path)) {
             return Err(Failure::Misused(format!(
                 "{flag} names {}, which is read; choose another file",
                 path.display()
@@ -44,14 +47,6 @@ pub fn check(flags: &Flags, inputs: &[&Path]) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// A path without its links and detours, as far as there is a file or a folder.
-fn place(path: &Path) -> PathBuf {
-    let whole = |path: &Path| path.canonicalize().ok();
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let beside = || Some(whole(folder.unwrap_or(Path::new(".")))?.join(path.file_name()?));
-    whole(path).or_else(beside).unwrap_or_else(|| path.to_owned())
 }
 
 /// Text to the file that `-o` names, or else to standard output.

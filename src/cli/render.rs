@@ -82,8 +82,10 @@ pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
     if let Some([width, height]) = flags.size {
         changes.push(format!("{}.view.size=[{width}, {height}]", view_name(&source.text)));
     }
-    let scene = gelray::scene::load(source, &changes, &flags.data_folders(), flags.exact)
+    let data = flags.data_folders();
+    let scene = gelray::scene::load_within(source, &changes, &data, flags.exact, flags.max_memory)
         .map_err(|error| blame(error, source))?;
+    outputs::spare(flags, &scene.files)?;
     for warning in scene.warnings.iter().filter(|_| !flags.quiet) {
         tell(format_args!("warning: {warning}"));
     }

@@ -2,14 +2,18 @@
 
 use std::fmt::Write;
 
+use super::escaped::escaped;
+
 /// A line a row, cells two blanks apart; columns named in `right` are flush on their right side.
 pub fn table<const N: usize>(rows: &[[String; N]], right: &[usize]) -> String {
+    let rows: Vec<[String; N]> =
+        rows.iter().map(|row| row.each_ref().map(|cell| escaped(cell))).collect();
     let width = |column: usize| {
         rows.iter().map(|row| row[column].chars().count()).max().unwrap_or_default()
     };
     let widths: [usize; N] = std::array::from_fn(width);
     let mut text = String::new();
-    for row in rows {
+    for row in &rows {
         let mut line = String::new();
         for (column, cell) in row.iter().enumerate() {
             let width = widths[column];

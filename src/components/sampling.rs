@@ -57,11 +57,12 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// The settings of `--exact`: no skipping, no stopping, a ray at every position, 32-bit texels; Δ as it was.
+    /// The settings of `--exact`: no stopping, a ray at every position, 32-bit texels; Δ as it was.
+    ///
+    /// What is lossless stays as stated: `skip` steps over empty space to the very same bytes.
     #[must_use]
     pub fn exact(&self) -> Self {
         Self {
-            skip: Skip::None,
             stop_at: 0.0,
             tolerance: 0.0,
             edge_tolerance: 0.0,

@@ -7,6 +7,7 @@ mod number;
 mod raw;
 mod stated;
 mod stream;
+mod survey;
 
 #[cfg(test)]
 mod hostile_files;
@@ -20,6 +21,7 @@ pub mod whole;
 use std::path::Path;
 
 pub use stated::Stated;
+pub use survey::{Survey, survey};
 
 use crate::error::Error;
 use crate::view::picture::Picture;
@@ -98,6 +100,16 @@ pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
         .and_then(|()| Stream::open(path))
         .and_then(|stream| read_stream(stream, path, stated))
         .map_err(|problem| Error::file(path, problem))
+}
+
+/// Whether a file is a volume of a known format: by what it starts with, or by the name of a headerless one.
+#[must_use]
+pub fn is_volume(path: &Path) -> bool {
+    let head = || Stream::open(path).ok()?.inflated_if_gzip().ok()?.peek(HEAD).ok();
+    let starts =
+        |head: Vec<u8>| FORMATS.iter().any(|format| format.recognizes.is_some_and(|of| of(&head)));
+    let headerless = by_name(path).is_some_and(|format| format.recognizes.is_none());
+    (headerless && path.is_file()) || head().is_some_and(starts)
 }
 
 fn read_stream(mut stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, String> {

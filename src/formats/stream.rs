@@ -156,7 +156,7 @@ impl Stream {
                 Left::Exactly(_) => count,
                 Left::AtMost(_) => count.min((2 * start).max(FIRST_CHUNK / size_of::<T>())),
             };
-            values.reserve_exact(end - start);
+            room(&mut values, end - start)?;
             values.resize(end, T::zeroed());
             let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values[start..]);
             let wanted = bytes.len();
@@ -223,6 +223,14 @@ impl Stream {
         let (Left::Exactly(left) | Left::AtMost(left)) = &mut self.left;
         *left = left.saturating_sub(bytes);
     }
+}
+
+/// Makes room in an array for `more` values; the error is that the machine has no memory for them.
+pub(super) fn room<T>(values: &mut Vec<T>, more: usize) -> Result<(), String> {
+    values.try_reserve_exact(more).map_err(|_| {
+        let bytes = (values.len() + more) as u64 * size_of::<T>() as u64;
+        format!("needs {bytes} bytes of memory, which there are not; choose a smaller volume or free some memory")
+    })
 }
 
 fn truncated(needed: u64, found: u64, what: &str) -> String {

@@ -1,6 +1,6 @@
 //! One `[[entity]]` table: what it is called, what it is, and whether its components belong together.
 
-use std::collections::BTreeSet;
+use std::collections::{HashMap, HashSet};
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -14,27 +14,47 @@ pub(super) fn names(tables: &[&Spanned<DeValue>]) -> Vec<String> {
     let stated = |table: &Spanned<DeValue>| {
         Some(table.get_ref().get("name")?.get_ref().as_str()?.to_owned())
     };
-    let mut taken: BTreeSet<String> = tables.iter().filter_map(|t| stated(t)).collect();
+    let taken: HashSet<String> = tables.iter().filter_map(|t| stated(t)).collect();
+    let mut unused = Unused::beside(taken);
     let name = |table: &&Spanned<DeValue>| {
         stated(table).unwrap_or_else(|| {
             let noun =
                 COMPONENTS.iter().find(|r| r.is_noun() && table.get_ref().get(r.key).is_some());
-            let name = unused(
-                noun.map_or("entity", |row| if row.key == "view" { "observer" } else { row.key }),
-                &taken,
-            );
-            taken.insert(name.clone());
-            name
+            unused.take(noun.map_or(
+                "entity",
+                |row| {
+                    if row.key == "view" { "observer" } else { row.key }
+                },
+            ))
         })
     };
     tables.iter().map(name).collect()
 }
 
-/// The name, numbered from 2 where it is taken.
-pub(super) fn unused(name: &str, taken: &BTreeSet<String>) -> String {
-    let numbered = (2_u32..).map(|n| format!("{name} {n}"));
-    let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
-    candidates.find(|c| !taken.contains(c)).unwrap_or_default()
+/// Names that are free: a word, or else the word with the least number from 2 that is not taken.
+pub(super) struct Unused {
+    taken: HashSet<String>,
+    /// Where the search for a word's next number goes on: below it every number is taken.
+    next: HashMap<&'static str, u32>,
+}
+
+impl Unused {
+    /// All names but those that are taken.
+    pub fn beside(taken: HashSet<String>) -> Self {
+        Self { taken, next: HashMap::new() }
+    }
+
+    /// The word if it is free, else numbered; from now on it is taken.
+    pub fn take(&mut self, word: &'static str) -> String {
+        let next = self.next.entry(word).or_insert(1);
+        loop {
+            let name = if *next == 1 { word.to_owned() } else { format!("{word} {next}") };
+            *next += 1;
+            if self.taken.insert(name.clone()) {
+                return name;
+            }
+        }
+    }
 }
 
 /// The table of one entity, its keys checked, and the component that says what it is.

@@ -19,6 +19,8 @@ pub struct Scene {
     pub warnings: Vec<String>,
     /// The TOML after overrides: what a picture notes so that it can be made again.
     pub resolved: String,
+    /// Every file that was read beside the scene's own: volumes, the data files that their headers name, and textures.
+    pub files: Vec<PathBuf>,
     /// The scene's name: its file without folder and ending, or the embedded scene's name.
     pub name: String,
 }
@@ -33,13 +35,32 @@ pub fn load(
     data: &[PathBuf],
     exact: bool,
 ) -> Result<Scene, Error> {
+    load_within(source, overrides, data, exact, None)
+}
+
+/// [`load`], but for a volume or a texture that would take more than `most_bytes`: an error before any of it is read.
+pub fn load_within(
+    source: &Source,
+    overrides: &[String],
+    data: &[PathBuf],
+    exact: bool,
+    most_bytes: Option<u64>,
+) -> Result<Scene, Error> {
     let resolved = overrides::apply(&source.name, &source.text, overrides)?;
     // Lines are those of the changed text, which the file on disk need not have.
     let changed = resolved != source.text;
     let file = if changed { format!("{} with --set", source.name) } else { source.name.clone() };
     let Stated { text, world, entries } = parse(Text { file: &file, text: &resolved })?;
     let folders = Folders { scene: source.folder(), data: data.to_vec() };
-    let mut loading = Loading { text, world, entries, folders, warnings: Vec::new() };
+    let mut loading = Loading {
+        text,
+        world,
+        entries,
+        folders,
+        warnings: Vec::new(),
+        files: Vec::new(),
+        most_bytes,
+    };
     volume::bring_in(&mut loading)?;
     polygons::bring_in(&mut loading)?;
     let extent = view::extent(&loading)?;
@@ -47,6 +68,6 @@ pub fn load(
     lights::bring_in(&mut loading, extent)?;
     view::bring_in(&mut loading, extent, exact)?;
     let stem = Path::new(&source.name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let Loading { world, warnings, .. } = loading;
-    Ok(Scene { world, warnings, name: stem.unwrap_or_default(), resolved })
+    let Loading { world, warnings, files, .. } = loading;
+    Ok(Scene { world, warnings, files, name: stem.unwrap_or_default(), resolved })
 }

@@ -1,11 +1,11 @@
 //! A scene half-way: what is stated, what has been read so far, and where files are looked for.
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use hecs::World;
 
-use super::entity::unused;
+use super::entity::Unused;
 use super::error::Text;
 use super::parse::Entry;
 use crate::components::{Name, Order};
@@ -18,6 +18,10 @@ pub(super) struct Loading<'t> {
     pub folders: Folders,
     pub world: World,
     pub warnings: Vec<String>,
+    /// Every file that was read, and those that a header in it names.
+    pub files: Vec<PathBuf>,
+    /// The most bytes that what is read may take; `None`: as many as there are.
+    pub most_bytes: Option<u64>,
 }
 
 impl Loading<'_> {
@@ -38,11 +42,12 @@ impl Loading<'_> {
     }
 
     /// An entity that the scene does not state, with a name that is free, after all others.
-    pub fn spawn(&mut self, name: &str, components: impl hecs::DynamicBundle) {
-        let taken: BTreeSet<_> =
+    pub fn spawn(&mut self, name: &'static str, components: impl hecs::DynamicBundle) {
+        let taken: HashSet<_> =
             self.world.query_mut::<&Name>().into_iter().map(|name| name.0.clone()).collect();
         let entity = self.world.spawn(components);
-        let identity = (Name(unused(name, &taken)), Order(taken.len() as u32));
+        let order = Order(taken.len() as u32);
+        let identity = (Name(Unused::beside(taken).take(name)), order);
         let _ = self.world.insert(entity, identity);
     }
 
@@ -55,6 +60,14 @@ impl Loading<'_> {
         problem: impl AsRef<str>,
     ) -> Error {
         self.entries[entry].fault(component, path, problem).within(self.text).into()
+    }
+
+    /// An error if an array of `bytes` is more than may be read.
+    pub fn afford(&self, bytes: u64) -> Result<(), Error> {
+        match self.most_bytes {
+            Some(allowed) if bytes > allowed => Err(Error::Memory { needed: bytes, allowed }),
+            _ => Ok(()),
+        }
     }
 
     /// Keeps a warning about an entry.
@@ -81,10 +94,31 @@ impl Folders {
         direct.into_iter().find(|path| path.exists())
     }
 
-    /// The folders, for sentences.
-    pub fn list(&self) -> String {
-        let all = std::iter::once(&self.scene).chain(&self.data);
-        all.map(|folder| format!("`{}`", folder.display())).collect::<Vec<_>>().join(", ")
+    /// The sentence about a file that is nowhere: where it was looked for.
+    pub fn missing(&self, file: &str) -> String {
+        if file == "~" || file.starts_with("~/") {
+            return format!(
+                "`{file}` begins with `~`, which only a shell takes for the home folder; write the folder's full path"
+            );
+        }
+        let folder = |folder: &PathBuf| format!("`{}`", folder.display());
+        let scene = if self.scene == Path::new(".") {
+            "the working folder".to_owned()
+        } else {
+            format!("the scene's folder {}", folder(&self.scene))
+        };
+        let data: Vec<_> = self.data.iter().map(folder).collect();
+        match data.len() {
+            0 => format!("`{file}` is not in {scene}, and no data folder is given"),
+            1 => format!(
+                "`{file}` is not in {scene}, nor in the data folder {} or a folder in it",
+                data[0]
+            ),
+            _ => format!(
+                "`{file}` is not in {scene}, nor in the data folders {} or a folder in them",
+                data.join(", ")
+            ),
+        }
     }
 }
 

@@ -7,6 +7,7 @@ mod check;
 mod entity;
 mod error;
 mod grammar;
+mod library;
 mod lights;
 mod load;
 mod loading;
@@ -23,6 +24,6 @@ mod textures;
 mod view;
 mod volume;
 
-pub use load::{Scene, load};
+pub use load::{Scene, load, load_within};
 pub use source::{EMBEDDED, Source};
 pub use table::schema;

@@ -44,7 +44,7 @@ fn one(document: &mut DocumentMut, names: &[String], change: &str) -> Result<(),
     };
     let entity = entity(document, names, name, row)?;
     let steps: Vec<_> = steps.collect();
-    let place = Place { path: row.key.to_owned(), schema: row.schema() };
+    let place = Place { path: row.key.to_owned(), schema: row.schema().clone() };
     let entry = entity.as_table_like_mut().ok_or("the entity is no table; write `[[entity]]`")?;
     set(entry.entry(row.key).or_insert(Item::None), &place, &steps, value)
 }

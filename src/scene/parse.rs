@@ -1,5 +1,6 @@
 //! TOML to entities with the components that they state, every fault at its line and column.
 
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use hecs::{Entity, EntityBuilder, World};
@@ -111,16 +112,18 @@ pub(super) fn entity_names(root: &DeTable) -> Vec<String> {
 
 /// Names are unique, and there is one volume and one view at the most.
 fn once(stated: &Stated) -> Result<(), Fault> {
-    for (i, entry) in stated.entries.iter().enumerate() {
-        let before = &stated.entries[..i];
-        if before.iter().any(|other| other.name == entry.name) {
+    let mut called = HashSet::new();
+    let mut first: HashMap<&str, &Entry> = HashMap::new();
+    for entry in &stated.entries {
+        if !called.insert(entry.name.as_str()) {
             let message = format!(
                 "a second entity is called `{}`; names must differ, rename one",
                 entry.name
             );
             return Err(Fault::new(entry.span("name", ""), message));
         }
-        let twin = before.iter().find(|other| other.noun == entry.noun);
+        let twin = first.get(entry.noun).copied();
+        first.entry(entry.noun).or_insert(entry);
         if let (Some(twin), "volume" | "view") = (twin, entry.noun) {
             let (a, b) = (&twin.name, &entry.name);
             let message = format!(

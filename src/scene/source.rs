@@ -1,10 +1,12 @@
 //! Where a scene's text comes from: a file, or the table of scenes that are part of the program.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::nearest::suggestion;
 use crate::error::Error;
 use crate::error::SceneError;
+use crate::formats::is_volume;
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
 pub static EMBEDDED: [(&str, &str); 18] = [
@@ -39,13 +41,38 @@ pub struct Source {
     pub name: String,
 }
 
+/// The longest scene that is read, in bytes: half a million polygons.
+const LONGEST: u64 = 64 << 20;
+
+/// The bytes of an ordinary file of at most [`LONGEST`]; devices and pipes may never end.
+fn ordinary(path: &Path) -> Result<Vec<u8>, String> {
+    let unreadable = |e| format!("the scene cannot be read: {e}; check the path");
+    let found = std::fs::metadata(path).map_err(unreadable)?;
+    if !found.is_file() && !found.is_dir() {
+        return Err(
+            "is a device or a pipe, which may never end; save the scene in a file".to_owned()
+        );
+    }
+    if is_volume(path) {
+        return Err("is a volume and a scene is expected; write a scene of two lines, `[[entity]]` and `volume = { file = \"…\" }`, and render that".to_owned());
+    }
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)
+        .and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes))
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(format!(
+            "is longer than {LONGEST} bytes, the most that a scene may have; split it, or keep vertices in fewer digits"
+        ));
+    }
+    Ok(bytes)
+}
+
 impl Source {
     /// Reads a scene from a file of UTF-8 text.
     pub fn read(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let bytes = std::fs::read(&path).map_err(|e| {
-            Error::file(&path, format!("the scene cannot be read: {e}; check the path"))
-        })?;
+        let bytes = ordinary(&path).map_err(|problem| Error::file(&path, problem))?;
         let text = String::from_utf8(bytes).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
             Error::file(

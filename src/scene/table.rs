@@ -1,5 +1,7 @@
 //! The one table of components: what a scene may state. A component more is a struct, its checks and a line here.
 
+use std::sync::OnceLock;
+
 use hecs::EntityBuilder;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
@@ -23,6 +25,8 @@ pub(super) struct Row {
     /// It only makes sense on an entity that states one of these; empty for what an entity *is*.
     pub with: &'static [&'static str],
     schema: fn() -> Json,
+    /// The schema, once it was asked for: every entity is checked against it.
+    made: OnceLock<Json>,
     read: fn(&Row, &Spanned<DeValue>, &mut EntityBuilder) -> Result<(), Fault>,
 }
 
@@ -64,8 +68,8 @@ impl Row {
     }
 
     /// The JSON schema of the component.
-    pub fn schema(&self) -> Json {
-        (self.schema)()
+    pub fn schema(&self) -> &Json {
+        self.made.get_or_init(self.schema)
     }
 
     /// Reads the component, checks it and adds it to an entity.
@@ -78,7 +82,7 @@ const fn row<T>(key: &'static str, with: &'static [&'static str]) -> Row
 where
     T: DeserializeOwned + JsonSchema + Check + Send + Sync + 'static,
 {
-    Row { key, with, schema: schema_of::<T>, read: read::<T> }
+    Row { key, with, schema: schema_of::<T>, made: OnceLock::new(), read: read::<T> }
 }
 
 fn schema_of<T: JsonSchema>() -> Json {
@@ -92,7 +96,7 @@ fn read<T>(row: &Row, value: &Spanned<DeValue>, entity: &mut EntityBuilder) -> R
 where
     T: DeserializeOwned + Check + Send + Sync + 'static,
 {
-    grammar::check(value, &row.schema(), row.key)?;
+    grammar::check(value, row.schema(), row.key)?;
     let component = T::deserialize(ValueDeserializer::from(value.clone())).map_err(|e| {
         let message = format!("`{}` cannot be used: {}", row.key, e.message());
         Fault::new(e.span().unwrap_or_else(|| value.span()), message)
@@ -127,7 +131,7 @@ pub fn schema() -> Json {
     let mut dependent = serde_json::Map::new();
     properties.insert("name".to_owned(), json!({ "type": "string", "minLength": 1 }));
     for row in &COMPONENTS {
-        properties.insert(row.key.to_owned(), row.schema());
+        properties.insert(row.key.to_owned(), row.schema().clone());
         if !row.is_noun() {
             let choices: Vec<_> = row.with.iter().map(|key| json!({ "required": [key] })).collect();
             dependent.insert(row.key.to_owned(), json!({ "anyOf": choices }));

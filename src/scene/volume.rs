@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::loading::Loading;
 use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
 use crate::error::Error;
-use crate::formats::{Loaded, Stated, Voxels, read_volume};
+use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
 use crate::measure::histogram::suggested_isovalues;
 use crate::measure::sigma::sigma;
 use crate::phantom::phantom;
@@ -56,9 +56,7 @@ fn read(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded,
     if let Some(read) = read_one(loading, entry, "file", &volume.file, &stated)? {
         return Ok((read, false));
     }
-    let folders = loading.folders.list();
-    let missing =
-        format!("`{}` is not in {folders} nor in the folders of the data folders", volume.file);
+    let missing = loading.folders.missing(&volume.file);
     let remedy = "give its folder with --data DIR";
     let Some(stand_in) = &volume.stand_in else {
         let problem = format!("{missing}; {remedy} or state a `stand_in`");
@@ -74,7 +72,7 @@ fn read(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded,
 
 /// A phantom by its name or a file by its path; `None` for a file that is nowhere.
 fn read_one(
-    loading: &Loading,
+    loading: &mut Loading,
     entry: usize,
     key: &str,
     file: &str,
@@ -84,7 +82,11 @@ fn read_one(
         let made = phantom(name.trim());
         return made.map(Some).map_err(|problem| loading.error(entry, "volume", key, problem));
     }
-    loading.folders.find(file).map(|path| read_volume(&path, stated)).transpose()
+    let Some(path) = loading.folders.find(file) else { return Ok(None) };
+    let survey = survey(&path, stated)?;
+    loading.files.extend(survey.files);
+    loading.afford(survey.bytes)?;
+    read_volume(&path, stated).map(Some)
 }
 
 /// The grid with other spacings (negative flips about the middle) and its middle moved to `center`.

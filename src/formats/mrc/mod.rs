@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::number::{self, Binary, NumberType};
 use super::stream::Stream;
+use super::survey::of_size;
 use super::{Loaded, Stated, Voxels};
 use crate::shared::Shared;
 use crate::volume::grid::Scalars;
@@ -39,6 +40,16 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
     };
     warnings.extend(stream.finish()?);
     Ok(Loaded { grid, voxels: Voxels::Scalars(scalars), warnings })
+}
+
+/// Bytes of the voxels that a header promises, with the floats that halves become.
+pub(super) fn promised(stream: &mut Stream) -> Result<u64, String> {
+    let header = Header::read(stream)?;
+    let each = match header.mode {
+        Mode::Number(kind) => kind.bytes(),
+        Mode::Half => size_of::<u16>() + size_of::<f32>(),
+    };
+    Ok(of_size(header.size, each))
 }
 
 /// Half floats, read as their bits, as floats; each is exact.

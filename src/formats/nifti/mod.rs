@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::number::{self, Binary, NumberType, Stored};
 use super::stream::Stream;
+use super::survey::of_size;
 use super::{Loaded, Stated, Voxels};
 use crate::shared::Shared;
 use crate::volume::grid::Scalars;
@@ -38,6 +39,14 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
     };
     warnings.extend(stream.finish()?);
     Ok(Loaded { grid, voxels, warnings })
+}
+
+/// Bytes of the voxels that a header promises, with the floats that scaled values become.
+pub(super) fn promised(stream: &mut Stream) -> Result<u64, String> {
+    let header = Header::read(stream)?;
+    let each = header.kind.map_or(4, NumberType::bytes);
+    let scaled = header.kind.is_some() && (header.slope, header.intercept) != (1.0, 0.0);
+    Ok(of_size(header.size, if scaled { each + size_of::<f32>() } else { each }))
 }
 
 /// `slope · value + intercept` as 32-bit floats; the values themselves where that changes nothing.

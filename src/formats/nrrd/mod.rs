@@ -6,10 +6,11 @@ mod placement;
 mod tests;
 mod words;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::number::{self, Binary, Order};
 use super::stream::Stream;
+use super::survey::of_size;
 use super::{Loaded, Stated, Voxels};
 use header::{Encoding, Header, Skip};
 use words::Words;
@@ -29,7 +30,7 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
     let (voxels, excess) = match &header.data_file {
         None => voxels(stream, &header, numbers)?,
         Some(name) => {
-            let beside = path.parent().unwrap_or(Path::new("")).join(name);
+            let beside = beside(path, name);
             Stream::open(&beside)
                 .and_then(|stream| voxels(stream, &header, numbers))
                 .map_err(|problem| format!("its data file `{}` {problem}", beside.display()))?
@@ -37,6 +38,19 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
     };
     warnings.extend(excess);
     Ok(Loaded { grid, voxels, warnings })
+}
+
+/// Bytes of the voxels that a header promises, and the data file that it names.
+pub(super) fn promised(stream: &mut Stream, path: &Path) -> Result<(u64, Option<PathBuf>), String> {
+    let header = Header::read(stream)?;
+    let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
+    let beside = header.data_file.as_deref().map(|name| beside(path, name));
+    Ok((of_size(header.size, each), beside))
+}
+
+/// The path of a data file, which its header states relative to its own folder.
+fn beside(path: &Path, name: &str) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// The voxels of a stream that stands at the start of its data, and a warning where bytes are left over.

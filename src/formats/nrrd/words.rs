@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 
 use super::super::number::{Source, Stored};
-use super::super::stream::Stream;
+use super::super::stream::{Stream, room};
 
 /// Letters that a number may have: the smallest double, written out, has 327.
 const LONGEST: usize = 400;
@@ -76,7 +76,7 @@ impl Source for Words<'_> {
         while elements.len() < count {
             let start = elements.len();
             let end = count.min((2 * start).max(FIRST_CHUNK));
-            elements.reserve_exact(end - start);
+            room(&mut elements, end - start)?;
             elements.resize(end, E::zeroed());
             let numbers: &mut [T] = bytemuck::cast_slice_mut(&mut elements[start..]);
             for (at, number) in numbers.iter_mut().enumerate() {

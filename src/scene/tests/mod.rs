@@ -135,7 +135,8 @@ fn a_file_that_is_nowhere_is_stood_in_for_with_a_warning_or_refused_with_a_remed
     assert_ne!(only::<Grid>(&world).spacing(), glam::DVec3::splat(9.0));
     let sentence = refused(&BALL.replace("phantom:ball", "no.nrrd"));
     assert!(
-        sentence.starts_with("s.toml:3:") && sentence.contains("`no.nrrd` is not in `.`"),
+        sentence.starts_with("s.toml:3:")
+            && sentence.contains("`no.nrrd` is not in the working folder"),
         "{sentence}"
     );
 }
