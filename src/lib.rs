@@ -3,8 +3,8 @@
 //!
 //! # The house
 //!
-//! `src` holds the nouns, [`systems`] the verbs. A scene *states* [`components`]; a system *makes* exactly one of the
-//! [`products`] from them and from what other systems made. Nothing is changed in place.
+//! `src` holds the nouns, [`systems`] the verbs. A scene *states* [`components`]; a system *makes* exactly one
+//! [product](schedule::Product) from them and from what other systems made. Nothing is changed in place.
 //!
 //! - **Stated.** A [`scene`] is TOML: entities (a volume, polygons, lights, textures, a view) that carry components. An
 //!   option is a component too: `voxelize` on a polygon has it scan-converted instead of traced, `casts_shadow` on a light
@@ -17,7 +17,7 @@
 //!   those of the last run, and makes it else. So a turn of the view casts rays and does nothing else, and a scene without
 //!   a shadow has no light buffer, in time or memory. `gelray plan` prints what would run, and why, before it does.
 //! - **Measured.** The schedule opens a span around every system; [`measure::cost`] sums them to the cost table of §7.
-//!   Counts of rays and samples are facts about a picture and live in the product [`products::Samples`].
+//!   Counts of rays and samples are facts about a picture and live in the product [`Samples`](view::samples::Samples).
 //!
 //! # The rooms
 //!
@@ -52,7 +52,7 @@
 //! | `shade` | c_i, one for each shadowed light and one for all others | [`shading`] |
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
-//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | [`relit`]; [`painting`] for RGBA volumes |
+//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `relit`; [`painting`] for RGBA volumes |
 //! | `pyramid` | which cells are interesting, level by level (§6) | [`pyramid`] |
 //!
 //! # The walk of a ray
@@ -60,9 +60,9 @@
 //! `cast` owns the rays of a view. `beams` splats the occupied bricks into tiles of the picture, which tells each beam
 //! where it can meet gel at all. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
 //! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that a polygon's edge is
-//! seen. `march` takes a ray through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in it into
-//! slivers (equations 2a and 2b), and stops when what lies behind can add no more than ε_T. `volume` finds the next
-//! interesting sample over the pyramid, `texture` filters what is mapped onto a polygon over the ray's footprint
+//! seen. `march` takes a packet of rays through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds into
+//! slivers (equations 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` finds which rays
+//! meet gel at a sample, `several` joins gels that overlap, `texture` filters what is mapped onto a polygon over the ray's footprint
 //! ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the sample array to
 //! the picture, and [`formats::pictures`] writes it.
 //!
@@ -74,6 +74,13 @@
 //!   fixed-point voxel indices ([`ray::Walk`]), so that n steps at once are n steps exactly: stepping over empty gel meets
 //!   the very samples that walking would have met, and pictures are equal bit for bit with the pyramid and without it, and
 //!   on any number of threads.
+//! - **Views may be in perspective** (`field_of_view`). Depth is measured along the line of sight for every ray, so that the
+//!   samples of all lie in the same planes; a slab is as thick as a ray's own way through it, and the one that the eye is in
+//!   counts from the eye on. `1 / (depth + eye)` is affine over a polygon where the depth is in a parallel view.
+//! - **Several volumes may overlap**, each on its grid: optical depths add and colours weigh by them
+//!   ([`composite::overlap`](view::composite::overlap)), independent of their order. What comes through several of them to a
+//!   voxel is the product of what comes through each, so each is swept by a light alone.
+//! - **Rays go in packets of sixteen**, neighbours side by side from sample to sample; each gathers what it would alone.
 //! - **Opacity is per unit of thickness.** A voxel's opacity is that of a slab one opacity unit thick; a sample stands for
 //!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture.
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one
@@ -98,9 +105,27 @@
 //!
 //! # Limits
 //!
-//! A scene has one volume and one view, lights are directional and views parallel. Voxels are shaded before they are
+//! A scene has one view, and lights are directional. In perspective, highlights and head lights are those of an observer far
+//! away on the line of sight, so that voxels are shaded once. A polygon is scan-converted into, and casts its shadow in, the
+//! first volume that holds its middle. Voxels are shaded before they are
 //! interpolated, as in the paper, so that what is magnified much looks soft. A material with highlights, or a light at
 //! the observer, is shaded anew for every view. Polygons are planar; meshes are polygons.
+//!
+//! [`texture`]: polygon::texture
+//! [`coverage`]: polygon::coverage
+//! [`strength`]: light::strength
+//! [`shading`]: light::shading
+//! [`ray::Walk`]: view::walk::Walk
+//! [`composite`]: view::composite
+//! [`composite::thicken`]: view::composite::thicken
+//! [`pyramid`]: volume::pyramid
+//! [`painting`]: volume::painting
+//! [`grid::Scalars`]: volume::grid::Scalars
+//! [`grid::Grid`]: volume::grid::Grid
+//! [`gel`]: volume::gel
+//! [`clipping`]: volume::clipping
+//! [`classification`]: volume::classification
+//! [`bricks`]: volume::bricks
 
 pub mod components;
 pub mod error;

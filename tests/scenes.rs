@@ -137,7 +137,9 @@ fn a_system_reads_the_products_that_it_names_and_no_other() {
             let hidden: Vec<_> = others.map(|key| key.hide(&mut world)).collect();
             let kept = ran(job, &mut world).is_some_and(|(made, _)| made == 0);
             assert!(kept, "{name}: {} reads what it does not name", job.name);
-            hidden.into_iter().for_each(|restore| restore(&mut world));
+            for restore in hidden {
+                restore(&mut world);
+            }
         }
         idle.retain(|(job, read)| {
             let with = ran(job, &mut world);

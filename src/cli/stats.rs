@@ -64,7 +64,7 @@ impl Bytes {
             scalars: voxels(world),
             gel: world.query::<&Gel>().iter().map(gel).sum(),
             pyramid: world.query::<&Pyramid>().iter().map(Pyramid::bytes).sum(),
-            light: world.query::<&LightStrength>().iter().map(|made| made.bytes()).sum(),
+            light: world.query::<&LightStrength>().iter().map(LightStrength::bytes).sum(),
             peak_rss: peak_rss(),
         }
     }

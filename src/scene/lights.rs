@@ -33,7 +33,8 @@ pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Erro
             );
         }
     }
-    let painted = volumes.iter().any(|&entry| loading.get::<Painted>(entry).is_some());
+    let painted =
+        !volumes.is_empty() && volumes.iter().all(|&entry| loading.get::<Painted>(entry).is_some());
     let polygons = !loading.nouns(&["polygon", "mesh"]).is_empty();
     if lights.is_empty() && (polygons || !painted) {
         let toward = Toward::Observer(Observer::Observer);

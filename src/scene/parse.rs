@@ -110,7 +110,7 @@ pub(super) fn entity_names(root: &DeTable) -> Vec<String> {
     tables(root).map(|tables| names(&tables)).unwrap_or_default()
 }
 
-/// Names are unique, and there is one volume and one view at the most.
+/// Names are unique, and there is one view at the most.
 fn once(stated: &Stated) -> Result<(), Fault> {
     let mut called = HashSet::new();
     let mut first: HashMap<&str, &Entry> = HashMap::new();
@@ -124,7 +124,7 @@ fn once(stated: &Stated) -> Result<(), Fault> {
         }
         let twin = first.get(entry.noun).copied();
         first.entry(entry.noun).or_insert(entry);
-        if let (Some(twin), "volume" | "view") = (twin, entry.noun) {
+        if let (Some(twin), "view") = (twin, entry.noun) {
             let (a, b) = (&twin.name, &entry.name);
             let message = format!(
                 "`{b}` is a second {0}, after `{a}`; a scene has one {0} at the most, take one away",

@@ -1,4 +1,4 @@
-//! The volume of a scene: its voxels found and placed, its classification resolved to numbers.
+//! The volumes of a scene: their voxels found and placed, their classification resolved to numbers.
 
 use glam::DVec3;
 
@@ -11,9 +11,12 @@ use crate::measure::sigma::sigma;
 use crate::phantom::phantom;
 use crate::volume::grid::{Grid, Scalars};
 
-/// Reads the volume that the scene states, if it states one.
+/// Reads every volume that the scene states.
 pub(super) fn bring_in(loading: &mut Loading) -> Result<(), Error> {
-    let Some(&entry) = loading.nouns(&["volume"]).first() else { return Ok(()) };
+    loading.nouns(&["volume"]).into_iter().try_for_each(|entry| bring_in_one(loading, entry))
+}
+
+fn bring_in_one(loading: &mut Loading, entry: usize) -> Result<(), Error> {
     let Some(volume) = loading.get::<Volume>(entry) else { return Ok(()) };
     let (read, stands_in) = read(loading, entry, &volume)?;
     for warning in read.warnings {

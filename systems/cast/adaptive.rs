@@ -180,7 +180,8 @@ fn cast_band<C: Caster>(
 ) {
     let mut scratch = C::Scratch::default();
     let mut positions = Vec::with_capacity(SIDE * SIDE);
-    let (mut targets, mut rays) = (Vec::with_capacity(SIDE * SIDE), Vec::with_capacity(SIDE * SIDE));
+    let (mut targets, mut rays) =
+        (Vec::with_capacity(SIDE * SIDE), Vec::with_capacity(SIDE * SIDE));
     let shift = step.trailing_zeros();
     for x in 0..beams.counts[0] {
         let beam = band.number * beams.counts[0] + x;

@@ -1,7 +1,7 @@
 //! Bands: the rows of the sample array that one row of beams owns, so that bands are written side by side.
 
-use super::targets::RayColors;
 use super::beams::{Beams, SIDE};
+use super::targets::RayColors;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
 /// Rows of blocks in a band.

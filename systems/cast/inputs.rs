@@ -3,9 +3,7 @@
 use hecs::{Entity, World};
 
 use super::shaft::StatedShaft;
-use crate::components::{
-    DepthCue, Light, Order, Sampling, Shaft, Surface, View, Voxelize,
-};
+use crate::components::{DepthCue, Light, Order, Sampling, Shaft, Surface, View, Voxelize};
 use crate::light::shading::Lamps;
 use crate::light::strength::LightStrength;
 use crate::light::strength::ProjectedBy;

@@ -102,7 +102,11 @@ impl Plane {
             }
             let (dx, dy) = (-right / facing, -down / facing);
             let (center, middle) = camera.project(face.center);
-            return Some(Self::Parallel(DVec3::new(dx, dy, middle - dx * center.x - dy * center.y)));
+            return Some(Self::Parallel(DVec3::new(
+                dx,
+                dy,
+                middle - dx * center.x - dy * center.y,
+            )));
         };
         // The distance from the eye along the line of sight: its part along the normal is the same for every ray.
         let from = face.center - (camera.focal - camera.forward * eye);

@@ -86,19 +86,12 @@ impl Media for Several<'_> {
         least
     }
 
-    fn meet(
-        &self,
-        entered: &mut EnteredAll,
-        k: i64,
-        lanes: Lanes,
-        counts: &mut Counts,
-    ) -> Lanes {
+    fn meet(&self, entered: &mut EnteredAll, k: i64, lanes: Lanes, counts: &mut Counts) -> Lanes {
         let mut met = 0;
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
             within.met = 0;
             if within.next == k {
-                within.met =
-                    with_medium!(medium, inner => inner.meet(&mut within.entered, k, lanes, counts));
+                within.met = with_medium!(medium, inner => inner.meet(&mut within.entered, k, lanes, counts));
             }
             met |= within.met;
         }

@@ -39,8 +39,10 @@ impl System for TakeGradient {
     fn plan(world: &World) -> Plan {
         let voxel = size_of::<[f32; 3]>() as u64;
         let bytes = |size: [usize; 3]| size.iter().fold(voxel, |n, &m| n.saturating_mul(m as u64));
-        let makes: Vec<_> =
-            with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v.size()))).collect();
+        let makes: Vec<_> = with_content(world, Content::Classified)
+            .iter()
+            .map(|v| (v.entity, bytes(v.size())))
+            .collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }

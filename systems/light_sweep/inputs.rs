@@ -72,9 +72,8 @@ fn hybrid_coverage(
     all: &[SceneVolume],
     (volume, grid): (Entity, &Grid),
 ) -> Result<Vec<Bricks<f32>>, Error> {
-    let mut query = world
-        .query::<(Entity, &Coverage, &Faces, Option<&Order>)>()
-        .without::<&Voxelize>();
+    let mut query =
+        world.query::<(Entity, &Coverage, &Faces, Option<&Order>)>().without::<&Voxelize>();
     let mut found: Vec<_> = query.iter().collect();
     found.retain(|(_, _, faces, _)| {
         around(all, faces.middle()).is_some_and(|around| around.entity == volume)

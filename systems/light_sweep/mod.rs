@@ -178,7 +178,8 @@ impl Sweep<'_> {
     ) -> Result<(VoxelStrength, Option<Buffer>), Error> {
         let Self { volume, toward, shadow, falloff, slide } = self;
         let grid = &volume.grid;
-        let direction = "its `toward` has no direction; state three finite numbers that are not all 0";
+        let direction =
+            "its `toward` has no direction; state three finite numbers that are not all 0";
         let shear = Shear::new(grid, *toward).ok_or_else(|| wrong(direction.to_owned()))?;
         let bias = bias_slices(grid, &shear, shadow);
         let casters = Casters::new(&volume.opacity, &volume.polygons, grid);
@@ -206,8 +207,7 @@ impl Sweep<'_> {
         }
         drop(columns);
         let strength = VoxelStrength { voxels: voxels.gather(&shear), full };
-        let buffer = buffer
-            .then(|| Buffer::new((shear, falloff), slide, (slices, brightest), way));
+        let buffer = buffer.then(|| Buffer::new((shear, falloff), slide, (slices, brightest), way));
         Ok((strength, buffer))
     }
 }
@@ -227,9 +227,8 @@ fn checked(inputs: &Inputs, grids: &[Grid]) -> Result<(Falloff, Option<Slide>), 
         ));
     }
     if Shear::new(&grids[0], *toward).is_none() {
-        return Err(
-            "its `toward` has no direction; state three finite numbers that are not all 0".to_owned(),
-        );
+        return Err("its `toward` has no direction; state three finite numbers that are not all 0"
+            .to_owned());
     }
     let falloff = Falloff::new(grids, *toward, k1, k2)?;
     let slide = inputs.projected.as_ref().map(|p| Slide::new(p, *toward)).transpose()?;

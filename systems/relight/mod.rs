@@ -112,8 +112,7 @@ fn unlit(world: &World) -> Vec<(Entity, Unlit)> {
 /// β in a volume of every light that casts a shadow, in the order of the scene; `None` where none was made.
 fn strengths(world: &World, volume: Entity) -> Vec<Option<VoxelStrength>> {
     let lamps = Lamps::of(world, observer::ANYWHERE);
-    let strength =
-        |light: Entity| world.get::<&LightStrength>(light).ok()?.of(volume).cloned();
+    let strength = |light: Entity| world.get::<&LightStrength>(light).ok()?.of(volume).cloned();
     lamps.shadowed.iter().map(|(light, _)| strength(*light)).collect()
 }
 

@@ -74,8 +74,10 @@ impl System for Shade {
     fn plan(world: &World) -> Plan {
         let shadows = world.query::<(&Light, &CastsShadow)>().iter().count() as u64;
         let arrays = 1 + shadows + u64::from(observer::is_cued(world));
-        let bytes = |v: &SceneVolume| bricks::most_bytes::<[f32; 3]>(v.size()).saturating_mul(arrays);
-        let makes: Vec<_> = with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v))).collect();
+        let bytes =
+            |v: &SceneVolume| bricks::most_bytes::<[f32; 3]>(v.size()).saturating_mul(arrays);
+        let makes: Vec<_> =
+            with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }

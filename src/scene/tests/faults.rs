@@ -162,10 +162,6 @@ fn entities_that_do_not_suit_the_scene_are_refused() {
         ("[[entity]]\nname = 3\nview = {}", "`name` must be"),
         ("[[entity]]\nview = {}\nlight = { toward = \"observer\" }", "make two entities"),
         (
-            "[[entity]]\nvolume = { file = \"a\" }\n[[entity]]\nvolume = { file = \"b\" }",
-            "`volume 2` is a second volume, after `volume`",
-        ),
-        (
             "[[entity]]\nview = {}\n[[entity]]\nname = \"b\"\nview = {}",
             "`b` is a second view, after `observer`",
         ),

@@ -39,7 +39,14 @@ fn cases() -> impl Strategy<Value = Case> {
     let held = prop_oneof![Just([50, 2]), Just([300, 1]), Just([1000, 20]), Just([10, 500])];
     let view = (angles(), angles(), angles(), prop_oneof![Just(None), (0.1..150.0).prop_map(Some)]);
     (placed, view, steps, any::<u64>(), held, any::<bool>()).prop_map(
-        |((size, spacing, shear, flips), (azimuth, elevation, roll, field_of_view), step, seed, held, whole)| {
+        |(
+            (size, spacing, shear, flips),
+            (azimuth, elevation, roll, field_of_view),
+            step,
+            seed,
+            held,
+            whole,
+        )| {
             let flip = |axis: usize| if flips >> axis & 1 == 1 { -1.0 } else { 1.0 };
             let spacing = if whole { [1.0; 3] } else { spacing };
             let scale = std::array::from_fn::<_, 3, _>(|axis| flip(axis) * spacing[axis]);
@@ -53,7 +60,8 @@ fn cases() -> impl Strategy<Value = Case> {
             let matrix3 = if flips & 8 == 8 { turned * scale } else { scale };
             let translation = matrix3 * -DVec3::from(size.map(|n| (n - 1) as f64 / 2.0));
             let grid = Grid::new(size, DAffine3 { matrix3, translation }).unwrap();
-            let view = View { azimuth, elevation, roll, field_of_view, size: [5; 2], ..View::default() };
+            let view =
+                View { azimuth, elevation, roll, field_of_view, size: [5; 2], ..View::default() };
             let distance = step * grid.spacing().min_element();
             Case { grid, view, distance, seed, held }
         },
