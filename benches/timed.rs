@@ -31,7 +31,12 @@ pub struct Setting {
 impl Setting {
     /// Reads a scene; nothing is made of it yet.
     pub fn open(source: &Source) -> Result<Self, Error> {
-        let scene = load(source, &[], &data(), false)?;
+        Self::with(source, &[])
+    }
+
+    /// Reads a scene whose files may also lie in `folders`.
+    pub fn with(source: &Source, folders: &[PathBuf]) -> Result<Self, Error> {
+        let scene = load(source, &[], &[folders, &data()].concat(), false)?;
         let schedule = Schedule::new(JOBS)?;
         Ok(Self { world: scene.world, warnings: scene.warnings, schedule })
     }
