@@ -11,7 +11,7 @@ use super::Color;
 pub struct Light {
     /// The direction towards the light, world coordinates, any length above 0; or `"observer"` for a head light.
     pub toward: Toward,
-    /// Strength, 0 or above; 1 lights a facing white surface to `diffuse`.
+    /// Strength, 0 to 1e15; 1 lights a facing white surface to `diffuse`.
     #[serde(default = "one")]
     #[schemars(range(min = 0.0))]
     pub strength: f32,

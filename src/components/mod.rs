@@ -5,6 +5,7 @@
 mod classify;
 mod clip;
 pub mod color;
+pub mod direction;
 mod light;
 mod material;
 mod mesh;

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
+use crate::components::direction::unit;
 use crate::components::{CastsShadow, Light, Material, Order, Shaft, Surface, Toward};
 use crate::view::observer;
 
@@ -99,7 +100,7 @@ impl Lamp {
         let side = if how.two_sided && facing < 0.0 { -1.0 } else { 1.0 };
         let diffuse = how.diffuse * (side * facing).max(0.0);
         let glint = side * normal.dot(self.half);
-        let specular = if how.specular > 0.0 && facing != 0.0 && glint > 0.0 {
+        let specular = if how.specular > 0.0 && glint > 0.0 {
             how.specular * libm::powf(glint, how.shininess)
         } else {
             0.0
@@ -112,7 +113,7 @@ impl Lamp {
 #[must_use]
 pub fn toward(light: &Light, observer: DVec3) -> DVec3 {
     match light.toward {
-        Toward::Direction(direction) => DVec3::from(direction).normalize_or_zero(),
+        Toward::Direction(direction) => unit(direction).unwrap_or_default(),
         Toward::Observer(_) => observer,
     }
 }
@@ -167,6 +168,19 @@ mod tests {
         let at = |normal: Vec3| lamp.reflected(Vec3::ONE, normal.normalize(), &shiny).x;
         assert!((at(Vec3::new(0.0, -1.0, 1.0)) - 0.5).abs() < 1e-5);
         assert!(at(Vec3::new(0.0, -0.8, 1.0)) < 0.5 && at(Vec3::ZERO.with_z(1.0)) < 0.01);
+    }
+
+    #[test]
+    fn a_highlight_does_not_vanish_where_light_grazes_exactly() {
+        // The observer looks straight at a surface that the light just grazes.
+        let lamp = lamp(Toward::Direction([0.0, 0.0, 1.0]));
+        let shiny = Reflectance { diffuse: 0.0, specular: 1.0, shininess: 1.0, ..MATT };
+        for how in [shiny, Reflectance { two_sided: true, ..shiny }] {
+            let at =
+                |z: f32| lamp.reflected(Vec3::ONE, Vec3::new(0.0, -1.0, z).normalize(), &how).x;
+            assert!((at(0.0) - 0.5 * 0.5_f32.sqrt()).abs() < 1e-6, "{}", at(0.0));
+            assert!((at(0.0) - at(1e-6)).abs() < 1e-5);
+        }
     }
 
     #[test]

@@ -1,9 +1,13 @@
 //! What the schema cannot say: keys of one component that must suit each other.
 
+use crate::components::direction::unit;
 use crate::components::{
     CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon, Projects,
     Sampling, Shaft, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
 };
+
+/// The strongest light: thousands of them, focused by a falloff of 1e-12, still add up to a number.
+const BRIGHTEST: f32 = 1e15;
 
 /// What is wrong with a component: the dotted path inside it, and the rest of a sentence that the component's key begins.
 #[derive(Debug)]
@@ -206,7 +210,16 @@ impl Check for Light {
         match self.toward {
             Toward::Direction(d) if !is_direction(d) => wrong(
                 "toward",
-                "has the direction [0, 0, 0]; state where the light is, of any length above 0",
+                format!(
+                    "has no direction in {d:?}; state where the light is, of any length above 0"
+                ),
+            ),
+            _ if self.strength > BRIGHTEST => wrong(
+                "strength",
+                format!(
+                    "has a strength of {}, and the sum of several such lights is no number; state at most {BRIGHTEST:e} (1 lights a facing white surface to `diffuse`)",
+                    self.strength
+                ),
             ),
             _ => Ok(()),
         }
@@ -264,7 +277,7 @@ impl Check for Sampling {
     }
 }
 
-/// Whether a vector is long enough and short enough to be made a unit vector.
+/// Whether a vector has a direction.
 fn is_direction(v: [f64; 3]) -> bool {
-    glam::DVec3::from(v).try_normalize().is_some()
+    unit(v).is_some()
 }

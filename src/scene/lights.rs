@@ -21,10 +21,15 @@ pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Erro
             let problem = "a beam that the volume weakens needs `casts_shadow` on its light; state it, or `attenuated = false`";
             return Err(loading.error(entry, "shaft", "attenuated", problem));
         }
+        let projects = loading.get::<Projects>(entry).is_some();
+        if projects && shadow.is_none() && shaft.is_none() {
+            let problem = "`projects` has no effect on a light that neither `casts_shadow` nor has a `shaft`: nothing says where its light falls; state `casts_shadow = {}`, or take it away";
+            loading.warn(entry, problem);
+        }
         let keys = [
             ("casts_shadow", shadow.is_some()),
             ("shaft", shaft.is_some()),
-            ("projects", loading.get::<Projects>(entry).is_some()),
+            ("projects", projects),
         ];
         for (key, _) in keys.into_iter().filter(|(_, stated)| *stated && volumes.is_empty()) {
             loading.warn(

@@ -33,9 +33,9 @@ impl Falloff {
         let falloff = Self { along, enter, k1, k2, range };
         for d in range {
             let divisor = falloff.divisor(d);
-            if !(1e-30..=1e30).contains(&divisor) {
+            if !(1e-12..=1e30).contains(&divisor) {
                 return Err(format!(
-                    "`casts_shadow` states the falloff 1 / ({k1} + {k2} d), whose divisor is {divisor:.3e} at distance {d:.3e} in the volume; choose `k1` and `k2` so that it is above 0 everywhere"
+                    "`casts_shadow` states the falloff 1 / ({k1} + {k2} d), whose divisor is {divisor:.3e} at distance {d:.3e} in the volume; choose `k1` and `k2` so that it is above 0 everywhere, by 1e-12 at least"
                 ));
             }
         }

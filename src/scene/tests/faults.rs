@@ -130,6 +130,8 @@ fn keys_of_a_component_that_do_not_suit_each_other_are_refused() {
             "within 0 and 1",
         ),
         (VOLUME, "classify = { iso = [{ value = 1 }], gradient = [[0, 0]] }", "without `transfer`"),
+        ("light = { toward = [0, 0, 0] }", "", "no direction in [0.0, 0.0, 0.0]"),
+        ("light = { toward = [0, 0, 1], strength = 3e38 }", "", "at most 1e15"),
         (VOLUME, "clip = {}", "`planes` or `box`"),
         (VOLUME, "clip = { planes = [[0, 0, 0, 1]] }", "normal"),
         (VOLUME, "clip = { box = [[0, 0, 0], [0, 1, 1]] }", "differ"),
