@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::loading::Loading;
-use super::textures::read;
 use crate::components::{Texture, Textured};
 use crate::error::Error;
+use crate::formats::read_picture;
 use crate::phantom;
 use crate::polygon::texture;
 use crate::view::picture::Picture;
@@ -84,4 +84,27 @@ impl Library {
         let stated = if stated.is_empty() { "none".to_owned() } else { stated.join(", ") };
         format!("no texture of the scene is called `{name}` (there are: {stated}), and {problem}")
     }
+}
+
+/// What a texture of the scene holds: its formula, its file, or what stands in for its file.
+fn read(loading: &mut Loading, entry: usize, texture: &Texture) -> Result<Picture, Error> {
+    let made = |loading: &Loading, key, name: &str| {
+        phantom::texture(name).map_err(|problem| loading.error(entry, "texture", key, problem))
+    };
+    if let Some(formula) = &texture.formula {
+        return made(loading, "formula", formula);
+    }
+    let file = texture.file.as_deref().unwrap_or_default();
+    if let Some(path) = loading.folders.find(file) {
+        loading.files.push(path.clone());
+        return read_picture(&path);
+    }
+    let missing = loading.folders.missing(file);
+    let Some(formula) = &texture.stand_in else {
+        let problem = format!("{missing}; give its folder with --data DIR or state a `stand_in`");
+        return Err(loading.error(entry, "texture", "file", problem));
+    };
+    let remedy = "give its folder with --data DIR";
+    loading.warn(entry, format!("{missing}: the formula `{formula}` stands in for it; {remedy}"));
+    made(loading, "stand_in", formula)
 }

@@ -4,14 +4,11 @@ use glam::DVec3;
 
 use super::library::Library;
 use super::loading::Loading;
-use crate::components::{Polygon, Projects, Texture, Textured, Voxelize};
+use crate::components::{Polygon, Projects, Textured, Voxelize};
 use crate::error::Error;
-use crate::formats::read_picture;
 use crate::light::strength::ProjectedBy;
-use crate::phantom;
 use crate::polygon::texture::TexturedBy;
 use crate::view::extent::Extent;
-use crate::view::picture::Picture;
 use crate::volume::grid::Grid;
 
 /// Resolves `textured` and `projects`: reads each texture that one of them names once, and none else.
@@ -47,33 +44,6 @@ pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Erro
 fn middle(loading: &Loading, extent: Extent) -> DVec3 {
     let grid = loading.nouns(&["volume"]).first().and_then(|&entry| loading.get::<Grid>(entry));
     grid.and_then(|grid| Extent::of(grid.corners())).unwrap_or(extent).center()
-}
-
-/// What a texture of the scene holds: its formula, its file, or what stands in for its file.
-pub(super) fn read(
-    loading: &mut Loading,
-    entry: usize,
-    texture: &Texture,
-) -> Result<Picture, Error> {
-    let made = |loading: &Loading, key, name: &str| {
-        phantom::texture(name).map_err(|problem| loading.error(entry, "texture", key, problem))
-    };
-    if let Some(formula) = &texture.formula {
-        return made(loading, "formula", formula);
-    }
-    let file = texture.file.as_deref().unwrap_or_default();
-    if let Some(path) = loading.folders.find(file) {
-        loading.files.push(path.clone());
-        return read_picture(&path);
-    }
-    let missing = loading.folders.missing(file);
-    let Some(formula) = &texture.stand_in else {
-        let problem = format!("{missing}; give its folder with --data DIR or state a `stand_in`");
-        return Err(loading.error(entry, "texture", "file", problem));
-    };
-    let remedy = "give its folder with --data DIR";
-    loading.warn(entry, format!("{missing}: the formula `{formula}` stands in for it; {remedy}"));
-    made(loading, "stand_in", formula)
 }
 
 /// The world points of the texture's top left, top right and bottom left.

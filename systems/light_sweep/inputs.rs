@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::light::strength::ProjectedBy;
 use crate::polygon::face::Faces;
 use crate::volume::bricks::Bricks;
-use crate::volume::grid::{Grid, Painted};
+use crate::volume::grid::{Grid, Painted, Scalars};
 use crate::volume::layer::{Composite, Coverage, Opacity};
 use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes};
 
@@ -98,7 +98,8 @@ fn hybrid_coverage(
 pub(super) fn stated_volumes(world: &World) -> Vec<SceneVolume> {
     let mut all = volumes(world);
     let voxelized = world.query::<&Voxelize>().iter().next().is_some();
-    all.retain(|volume| volume.content != Content::Clear || voxelized);
+    let is_scanned = |entity| world.get::<&Scalars>(entity).is_ok();
+    all.retain(|volume| volume.content != Content::Clear || voxelized || is_scanned(volume.entity));
     all
 }
 

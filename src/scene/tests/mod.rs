@@ -101,7 +101,7 @@ fn exact_settings_take_the_place_of_those_stated_but_the_distance_stays() {
     );
     let world = load(&Source::inline("s", text), &[], &[], true).unwrap().world;
     let Sampling { distance_mm, stop_at, skip, coarsest, .. } = only(&world);
-    assert_eq!((distance_mm, stop_at, skip, coarsest), (Some(0.25), 0.0, Skip::None, 1));
+    assert_eq!((distance_mm, stop_at, skip, coarsest), (Some(0.25), 0.0, Skip::Pyramid, 1));
 }
 
 #[test]
