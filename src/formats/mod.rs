@@ -18,15 +18,17 @@ pub mod pictures;
 mod real_files;
 pub mod whole;
 
+use std::iter;
 use std::path::Path;
 
 pub use stated::Stated;
-pub use survey::{Survey, survey};
+pub use survey::Survey;
 
 use crate::error::Error;
 use crate::view::picture::Picture;
 use crate::volume::grid::{Grid, Painted, Scalars};
 use stream::Stream;
+use survey::Promise;
 
 /// What a volume file held: where its voxels are, and what they are.
 #[derive(Debug, Clone)]
@@ -61,6 +63,8 @@ pub struct Format {
     ///
     /// The error is a sentence without a subject, for the path to be put before it.
     read: fn(Stream, &Path, &Stated) -> Result<Loaded, String>,
+    /// What its header promises, before a voxel is read; errors as those of `read`.
+    promised: fn(&mut Stream, &Path, &Stated) -> Result<Promise, String>,
 }
 
 /// Bytes at the start of a file that tell its format: MRC has its word at 208, NIfTI at 344.
@@ -73,20 +77,29 @@ pub static FORMATS: &[Format] = &[
         extensions: &["nrrd", "nhdr"],
         recognizes: Some(nrrd::recognizes),
         read: nrrd::read,
+        promised: nrrd::promised,
     },
     Format {
         name: "NIfTI",
         extensions: &["nii", "nii.gz"],
         recognizes: Some(nifti::recognizes),
         read: nifti::read,
+        promised: nifti::promised,
     },
     Format {
         name: "MRC or CCP4",
         extensions: &["mrc", "mrc.gz", "map", "map.gz", "ccp4", "ccp4.gz"],
         recognizes: Some(mrc::recognizes),
         read: mrc::read,
+        promised: mrc::promised,
     },
-    Format { name: "raw", extensions: &["raw", "raw.gz"], recognizes: None, read: raw::read },
+    Format {
+        name: "raw",
+        extensions: &["raw", "raw.gz"],
+        recognizes: None,
+        read: raw::read,
+        promised: raw::promised,
+    },
 ];
 
 /// Reads a volume of any format in [`FORMATS`]: by what it starts with, else by how its name ends.
@@ -102,32 +115,54 @@ pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
         .map_err(|problem| Error::file(path, problem))
 }
 
+/// Surveys a volume of any format in [`FORMATS`]: fails as [`read_volume`] does where the header cannot be read.
+pub fn survey(path: &Path, stated: &Stated) -> Result<Survey, Error> {
+    let promised = |stream| {
+        let (mut stream, format) = recognized(stream, path)?;
+        (format.promised)(&mut stream, path, stated)
+    };
+    stated
+        .check()
+        .and_then(|()| Stream::open(path))
+        .and_then(promised)
+        .map(|(bytes, beside)| Survey {
+            files: iter::once(path.into()).chain(beside).collect(),
+            bytes,
+        })
+        .map_err(|problem| Error::file(path, problem))
+}
+
 /// Whether a file is a volume of a known format: by what it starts with, or by the name of a headerless one.
 #[must_use]
 pub fn is_volume(path: &Path) -> bool {
     let head = || Stream::open(path).ok()?.inflated_if_gzip().ok()?.peek(HEAD).ok();
-    let starts =
-        |head: Vec<u8>| FORMATS.iter().any(|format| format.recognizes.is_some_and(|of| of(&head)));
     let headerless = by_name(path).is_some_and(|format| format.recognizes.is_none());
-    (headerless && path.is_file()) || head().is_some_and(starts)
+    (headerless && path.is_file()) || head().is_some_and(|head| by_head(&head).is_some())
 }
 
-fn read_stream(mut stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, String> {
+fn read_stream(stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, String> {
+    let (stream, format) = recognized(stream, path)?;
+    let mut loaded = (format.read)(stream, path, stated)?;
+    if format.recognizes.is_some() {
+        loaded.warnings.extend(stated.unused());
+    }
+    Ok(loaded)
+}
+
+/// The format of a file, and its stream, inflated if need be and at its start.
+fn recognized(mut stream: Stream, path: &Path) -> Result<(Stream, &'static Format), String> {
     let named = by_name(path);
     let headerless = named.filter(|format| format.recognizes.is_none());
     if headerless.is_none() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gz")) {
         stream = stream.inflated_if_gzip()?;
     }
     let head = stream.peek(HEAD)?;
-    let format = headerless
-        .or_else(|| FORMATS.iter().find(|format| format.recognizes.is_some_and(|of| of(&head))))
-        .or(named)
-        .ok_or_else(unknown)?;
-    let mut loaded = (format.read)(stream, path, stated)?;
-    if headerless.is_none() {
-        loaded.warnings.extend(stated.unused());
-    }
-    Ok(loaded)
+    let format = headerless.or_else(|| by_head(&head)).or(named).ok_or_else(unknown)?;
+    Ok((stream, format))
+}
+
+fn by_head(head: &[u8]) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| format.recognizes.is_some_and(|of| of(head)))
 }
 
 fn by_name(path: &Path) -> Option<&'static Format> {

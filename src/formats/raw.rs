@@ -6,6 +6,7 @@ use glam::DAffine3;
 
 use super::number::{self, Binary, NumberType, Order};
 use super::stream::Stream;
+use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
 
 /// Reads the voxels that `stated` describes; the file must hold just these. Without a stated spacing it is 1.
@@ -33,6 +34,12 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
         ));
     }
     Ok(Loaded { grid, voxels: Voxels::Scalars(scalars), warnings: Vec::new() })
+}
+
+/// Bytes of the voxels that are stated; where too little is, whoever reads them says so.
+pub(super) fn promised(_: &mut Stream, _: &Path, stated: &Stated) -> Result<Promise, String> {
+    let (Some(size), Some(name)) = (stated.size, &stated.voxel_type) else { return Ok((0, None)) };
+    Ok((of_size(size, NumberType::named(name)?.bytes()), None))
 }
 
 #[cfg(test)]

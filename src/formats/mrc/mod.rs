@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::number::{self, Binary, NumberType};
 use super::stream::Stream;
-use super::survey::of_size;
+use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
 use crate::shared::Shared;
 use crate::volume::grid::Scalars;
@@ -43,13 +43,13 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
 }
 
 /// Bytes of the voxels that a header promises, with the floats that halves become.
-pub(super) fn promised(stream: &mut Stream) -> Result<u64, String> {
+pub(super) fn promised(stream: &mut Stream, _: &Path, _: &Stated) -> Result<Promise, String> {
     let header = Header::read(stream)?;
     let each = match header.mode {
         Mode::Number(kind) => kind.bytes(),
         Mode::Half => size_of::<u16>() + size_of::<f32>(),
     };
-    Ok(of_size(header.size, each))
+    Ok((of_size(header.size, each), None))
 }
 
 /// Half floats, read as their bits, as floats; each is exact.

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::number::{self, Binary, NumberType, Stored};
 use super::stream::Stream;
-use super::survey::of_size;
+use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
 use crate::shared::Shared;
 use crate::volume::grid::Scalars;
@@ -42,11 +42,12 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
 }
 
 /// Bytes of the voxels that a header promises, with the floats that scaled values become.
-pub(super) fn promised(stream: &mut Stream) -> Result<u64, String> {
+pub(super) fn promised(stream: &mut Stream, _: &Path, _: &Stated) -> Result<Promise, String> {
     let header = Header::read(stream)?;
     let each = header.kind.map_or(4, NumberType::bytes);
     let scaled = header.kind.is_some() && (header.slope, header.intercept) != (1.0, 0.0);
-    Ok(of_size(header.size, if scaled { each + size_of::<f32>() } else { each }))
+    let each = if scaled { each + size_of::<f32>() } else { each };
+    Ok((of_size(header.size, each), None))
 }
 
 /// `slope · value + intercept` as 32-bit floats; the values themselves where that changes nothing.

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::number::{self, Binary, Order};
 use super::stream::Stream;
-use super::survey::of_size;
+use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
 use header::{Encoding, Header, Skip};
 use words::Words;
@@ -41,7 +41,7 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
 }
 
 /// Bytes of the voxels that a header promises, and the data file that it names.
-pub(super) fn promised(stream: &mut Stream, path: &Path) -> Result<(u64, Option<PathBuf>), String> {
+pub(super) fn promised(stream: &mut Stream, path: &Path, _: &Stated) -> Result<Promise, String> {
     let header = Header::read(stream)?;
     let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
     let beside = header.data_file.as_deref().map(|name| beside(path, name));
