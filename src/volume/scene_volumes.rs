@@ -78,9 +78,13 @@ pub fn visible(world: &World) -> Vec<SceneVolume> {
 }
 
 /// Which of some volumes something around `middle` (a world point) is scan-converted into: the first that holds it, else
-/// the first.
+/// the first. The middle is not asked for where it makes no difference.
 #[must_use]
-pub fn around(volumes: &[SceneVolume], middle: Option<DVec3>) -> Option<SceneVolume> {
+pub fn around(
+    volumes: &[SceneVolume],
+    middle: impl FnOnce() -> Option<DVec3>,
+) -> Option<SceneVolume> {
+    let middle = if volumes.len() > 1 { middle() } else { None };
     let holding = middle.and_then(|middle| volumes.iter().find(|volume| volume.holds(middle)));
     holding.or(volumes.first()).copied()
 }
@@ -120,9 +124,10 @@ mod tests {
         world.spawn((Order(0), grid(0.0)));
         world.spawn((Order(1), grid(5.0)));
         let volumes = volumes(&world);
-        let place = |at: f64| around(&volumes, Some(DVec3::splat(at))).map(|volume| volume.entity);
+        let place =
+            |at: f64| around(&volumes, || Some(DVec3::splat(at))).map(|volume| volume.entity);
         let [first, second] = [Some(volumes[0].entity), Some(volumes[1].entity)];
         assert_eq!([place(0.5), place(5.5), place(20.0)], [first, second, first]);
-        assert_eq!(around(&[], None), None);
+        assert_eq!(around(&[], || None), None);
     }
 }

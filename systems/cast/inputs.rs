@@ -87,7 +87,7 @@ fn hybrid_polygons(world: &World) -> Vec<TracedPolygons> {
             faces: faces.clone(),
             surface: surface.clone(),
             textured: textured.cloned(),
-            grid: around(&volumes, faces.middle()).map(|volume| volume.grid),
+            grid: around(&volumes, || faces.middle()).map(|volume| volume.grid),
         }
     };
     polygons.into_iter().map(shown).collect()

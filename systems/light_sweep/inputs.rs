@@ -76,7 +76,7 @@ fn hybrid_coverage(
         world.query::<(Entity, &Coverage, &Faces, Option<&Order>)>().without::<&Voxelize>();
     let mut found: Vec<_> = query.iter().collect();
     found.retain(|(_, _, faces, _)| {
-        around(all, faces.middle()).is_some_and(|around| around.entity == volume)
+        around(all, || faces.middle()).is_some_and(|around| around.entity == volume)
     });
     found.sort_by_key(|(entity, .., order)| (order.copied(), *entity));
     let opacity = |(_, coverage, ..): (Entity, &Coverage, &Faces, Option<&Order>)| {

@@ -123,6 +123,9 @@ fn depth(bias: f64, shear: &Shear) -> usize {
     (bias.ceil() as usize).saturating_add(1).min(shear.size[2])
 }
 
+const NO_DIRECTION: &str =
+    "its `toward` has no direction; state three finite numbers that are not all 0";
+
 /// Sweeps one light through every volume.
 ///
 /// What comes through several volumes is the product of what comes through each: optical depths add. So each is swept
@@ -139,7 +142,7 @@ fn swept(
     if volumes.len() > 1 {
         for volume in volumes {
             let (_, buffer) = Sweep { volume, toward, shadow, falloff: Falloff::NONE, slide: None }
-                .run(&[], true, watch, wrong)?;
+                .run(None, true, watch, wrong)?;
             through.extend(buffer);
         }
     }
@@ -149,11 +152,12 @@ fn swept(
             through.iter().enumerate().filter(|(n, _)| *n != number).map(|(_, b)| b).collect();
         // One buffer has the slide and the falloff, the others what comes through their volumes alone.
         let sweep = Sweep { volume, toward, shadow, falloff, slide: slide.clone() };
-        let (voxels, own) = sweep.run(&others, inputs.buffer && number == 0, watch, wrong)?;
+        let buffer = inputs.buffer && number == 0;
+        let (voxels, own) = sweep.run(Some(&others), buffer, watch, wrong)?;
         if let Some(own) = own {
             strength.buffers = std::iter::once(own).chain(others.into_iter().cloned()).collect();
         }
-        strength.volumes.push((volume.entity, voxels));
+        strength.volumes.extend(voxels.map(|voxels| (volume.entity, voxels)));
     }
     Ok(strength)
 }
@@ -168,19 +172,18 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// The strengths at the volume's voxels, where `others` weaken the light too; and anywhere, if `buffer` is asked for.
+    /// The strengths at the volume's voxels, if those are asked for by the buffers of the `others` that weaken the light too;
+    /// and anywhere, if `buffer` is asked for.
     fn run(
         self,
-        others: &[&Buffer],
+        others: Option<&[&Buffer]>,
         buffer: bool,
         watch: &Watch,
         wrong: &dyn Fn(String) -> Error,
-    ) -> Result<(VoxelStrength, Option<Buffer>), Error> {
+    ) -> Result<(Option<VoxelStrength>, Option<Buffer>), Error> {
         let Self { volume, toward, shadow, falloff, slide } = self;
         let grid = &volume.grid;
-        let direction =
-            "its `toward` has no direction; state three finite numbers that are not all 0";
-        let shear = Shear::new(grid, *toward).ok_or_else(|| wrong(direction.to_owned()))?;
+        let shear = Shear::new(grid, *toward).ok_or_else(|| wrong(NO_DIRECTION.to_owned()))?;
         let bias = bias_slices(grid, &shear, shadow);
         let casters = Casters::new(&volume.opacity, &volume.polygons, grid);
         let brightest = slide.as_ref().map_or(1.0, Slide::brightest);
@@ -190,7 +193,8 @@ impl Sweep<'_> {
         let ratio = shear.distance / volume.unit;
         let mut columns = Columns::new(&shear, slide.as_ref(), ratio, depth(bias, &shear));
         let way = *toward * (bias * shear.distance);
-        let mut voxels = Voxels::new(&casters.opacity, &falloff, (bias, way), full, others);
+        let mut voxels =
+            others.map(|others| Voxels::new(&casters.opacity, &falloff, (bias, way), full, others));
         let [width, height] = shear.width();
         let kept = if buffer { width * height * shear.size[2] } else { 0 };
         let mut slices = Vec::with_capacity(kept);
@@ -202,11 +206,13 @@ impl Sweep<'_> {
                 let brightest = f64::from(brightest);
                 slices.extend(swept.iter().map(|&s| quantize(f64::from(s), brightest)));
             }
-            voxels.light(slice, &columns);
+            if let Some(voxels) = &mut voxels {
+                voxels.light(slice, &columns);
+            }
             watch.advance();
         }
         drop(columns);
-        let strength = VoxelStrength { voxels: voxels.gather(&shear), full };
+        let strength = voxels.map(|voxels| VoxelStrength { voxels: voxels.gather(&shear), full });
         let buffer = buffer.then(|| Buffer::new((shear, falloff), slide, (slices, brightest), way));
         Ok((strength, buffer))
     }
@@ -227,8 +233,7 @@ fn checked(inputs: &Inputs, grids: &[Grid]) -> Result<(Falloff, Option<Slide>), 
         ));
     }
     if Shear::new(&grids[0], *toward).is_none() {
-        return Err("its `toward` has no direction; state three finite numbers that are not all 0"
-            .to_owned());
+        return Err(NO_DIRECTION.to_owned());
     }
     let falloff = Falloff::new(grids, *toward, k1, k2)?;
     let slide = inputs.projected.as_ref().map(|p| Slide::new(p, *toward)).transpose()?;

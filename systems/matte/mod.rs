@@ -84,7 +84,7 @@ impl System for Matte {
         let mut query = world.query::<&Faces>().with::<(&Voxelize, &Surface)>();
         let into: Vec<_> = query
             .iter()
-            .filter_map(|faces| Some(around(&volumes, faces.middle())?.entity))
+            .filter_map(|faces| Some(around(&volumes, || faces.middle())?.entity))
             .collect();
         volumes.retain(|volume| into.contains(&volume.entity));
         if volumes.is_empty() {
@@ -189,7 +189,7 @@ impl Polygon {
 
     /// Whether it is scan-converted into this of some volumes.
     fn is_in(&self, entity: Entity, volumes: &[SceneVolume]) -> bool {
-        around(volumes, self.faces.middle()).is_some_and(|volume| volume.entity == entity)
+        around(volumes, || self.faces.middle()).is_some_and(|volume| volume.entity == entity)
     }
 
     /// α_G of a voxel where the polygon is wholly there: the least over the faces' directions in the grid.

@@ -53,7 +53,7 @@ impl System for ScanConvert {
             if voxelize.is_none() && !shadows {
                 continue;
             }
-            let Some(volume) = around(&volumes, faces.middle()) else {
+            let Some(volume) = around(&volumes, || faces.middle()) else {
                 if voxelize.is_none() {
                     continue;
                 }
@@ -93,7 +93,7 @@ impl System for ScanConvert {
             .iter()
             .filter(|(_, _, voxelize)| voxelize.is_some() || shadows)
             .filter_map(|(entity, faces, _)| {
-                let grid = around(&volumes, faces.middle())?.grid;
+                let grid = around(&volumes, || faces.middle())?.grid;
                 let table = grid.size.iter().map(|n| n.div_ceil(8) as u64).product::<u64>();
                 let flats = faces.0.par_iter().filter_map(|face| Flat::new(face, &grid));
                 // A brick near several faces is stored once.
