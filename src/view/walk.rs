@@ -44,6 +44,29 @@ impl Stride {
         let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
         Self { step: I64Vec3::from(step), per_step, is_coarse }
     }
+
+    /// The stride of a ray that goes nowhere.
+    pub const NONE: Self = Self { step: I64Vec3::ZERO, per_step: [1e60; 3], is_coarse: true };
+
+    /// How many samples on the first one outside a cell of 2^`level` voxels a side is, from fixed-point voxel index `at` in
+    /// that cell: at least 1, and never past a sample outside it. Cells are aligned.
+    #[must_use]
+    #[inline]
+    pub fn leap(&self, at: I64Vec3, level: u32) -> i64 {
+        if level == 0 && self.is_coarse {
+            return 1;
+        }
+        // The bits under `mask` are the place in the cell, whose complement is the room ahead.
+        let mask = (1_i64 << (level + FRACTION_BITS)) - 1;
+        let Self { step, per_step, .. } = *self;
+        let ahead = |at: i64, step: i64| ((at ^ !(step >> 63)) & mask) as f64;
+        let x = ahead(at.x, step.x) * per_step[0];
+        let y = ahead(at.y, step.y) * per_step[1];
+        let z = ahead(at.z, step.z) * per_step[2];
+        // Written out: `f64::min` would look for NaN, which cannot be.
+        let xy = if y < x { y } else { x };
+        (if z < xy { z } else { xy }) as i64 + 1
+    }
 }
 
 /// The samples of one ray that lie in the domain: numbers `first..end`, and where the first of them is.

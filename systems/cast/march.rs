@@ -128,10 +128,10 @@ pub fn march<M: Media>(
 ) {
     let eye = slabs.number(slabs.eye);
     let mut next = Next::new(slabs, hits, lanes, gathered);
-    let (mut open, mut k, mut gel) = (lanes, i64::MIN, i64::MIN);
+    let (mut open, mut k, mut gel) = (lanes, first, i64::MIN);
     while open != 0 {
-        if gel < k || gel == i64::MIN {
-            let found = media.seek(entered, k.max(first), counts);
+        if gel < k {
+            let found = media.seek(entered, k);
             gel = if found < end { found } else { i64::MAX };
         }
         k = gel.min(next.least);

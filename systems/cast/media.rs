@@ -14,7 +14,7 @@ pub trait Media: Sync {
     fn enter(&self, packet: &Packet<'_>, entered: &mut Self::Entered) -> [i64; 2];
 
     /// The first sample from number `k` on that some ray may meet gel at; all before it are empty for all of them.
-    fn seek(&self, entered: &mut Self::Entered, k: i64, counts: &mut Counts) -> i64;
+    fn seek(&self, entered: &mut Self::Entered, k: i64) -> i64;
 
     /// Which of `lanes` meet gel at sample `k`, which no other sample is asked for until [`slab`](Media::slab) was.
     fn meet(&self, entered: &mut Self::Entered, k: i64, lanes: Lanes, counts: &mut Counts)
@@ -34,7 +34,7 @@ impl Media for Nothing {
         [i64::MAX; 2]
     }
 
-    fn seek(&self, (): &mut (), _: i64, _: &mut Counts) -> i64 {
+    fn seek(&self, (): &mut (), _: i64) -> i64 {
         i64::MAX
     }
 

@@ -9,9 +9,9 @@ use super::media::Media;
 use super::shaft::Dust;
 use crate::view::composite::{recolor, thicken};
 use crate::view::samples::Counts;
-use crate::view::walk::{FRACTION_BITS, Walk};
+use crate::view::walk::{FRACTION_BITS, Stride, Walk};
 use crate::volume::gel::{EMPTY, Texel, TexelSlices};
-use crate::volume::pyramid::PyramidSlices;
+use crate::volume::pyramid::{PyramidSlices, empty_level_within};
 
 /// The gel of one volume as the rays of one view meet it.
 pub struct Medium<'a, T> {
@@ -39,17 +39,19 @@ pub struct Medium<'a, T> {
 #[derive(Debug, Clone, Default)]
 pub struct Entered {
     lanes: [Lane; LANES],
+    /// All samples before this number that were not asked for are empty.
+    next: i64,
 }
 
 /// Where one ray is.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct Lane {
     /// The samples that lie in the domain and in occupied bricks of its beam.
     first: i64,
     end: i64,
     /// Fixed-point voxel index of sample 0, and from each sample to the next: modulo 2⁶⁴, exact within the domain.
     base: I64Vec3,
-    step: I64Vec3,
+    stride: Stride,
     /// The slab's thickness along the ray against the opacity unit.
     ratio: f64,
     /// The world point at depth 0 and the way for each unit of depth, for what asks for world points.
@@ -59,21 +61,26 @@ struct Lane {
     stored: u32,
 }
 
-impl Lane {
-    const NOWHERE: Self = Self {
-        first: i64::MAX,
-        end: i64::MIN,
-        base: I64Vec3::ZERO,
-        step: I64Vec3::ZERO,
-        ratio: 1.0,
-        origin: DVec3::ZERO,
-        along: DVec3::ZERO,
-        stored: EMPTY,
-    };
+impl Default for Lane {
+    /// A ray that meets no gel.
+    fn default() -> Self {
+        Self {
+            first: i64::MAX,
+            end: i64::MIN,
+            base: I64Vec3::ZERO,
+            stride: Stride::NONE,
+            ratio: 1.0,
+            origin: DVec3::ZERO,
+            along: DVec3::ZERO,
+            stored: EMPTY,
+        }
+    }
+}
 
+impl Lane {
     #[inline]
     fn at(&self, k: i64) -> I64Vec3 {
-        self.base.wrapping_add(self.step.wrapping_mul(I64Vec3::splat(k)))
+        self.base.wrapping_add(self.stride.step.wrapping_mul(I64Vec3::splat(k)))
     }
 
     fn world(&self, k: i64, distance: f64) -> DVec3 {
@@ -82,8 +89,7 @@ impl Lane {
 }
 
 impl Entered {
-    /// The world point of a ray that has entered at sample `k`, and its slab's thickness against
-    /// the opacity unit.
+    /// The world point of a ray that has entered at sample `k`, and its slab's thickness against the opacity unit.
     pub fn place(&self, lane: usize, k: i64, distance: f64) -> (DVec3, f64) {
         let lane = &self.lanes[lane];
         (lane.world(k, distance), lane.ratio)
@@ -109,29 +115,31 @@ impl<T: Texel> Media for Medium<'_, T> {
     type Entered = Entered;
 
     fn enter(&self, packet: &Packet<'_>, entered: &mut Entered) -> [i64; 2] {
+        entered.next = i64::MIN;
         let mut range = [i64::MAX, i64::MIN];
         for ((lane, ray), beam) in entered.lanes.iter_mut().zip(packet.rays).zip(packet.beams) {
-            *lane = Lane::NOWHERE;
+            *lane = Lane::default();
             let occupied = self.occupied.as_ref().map_or([i64::MIN, i64::MAX], |o| o[*beam]);
             if occupied[0] >= occupied[1] {
                 continue;
             }
             let Some(samples) = self.walk.enter(ray) else { continue };
-            let step = samples.stride.step;
-            let base = samples.at.wrapping_sub(step.wrapping_mul(I64Vec3::splat(samples.first)));
+            let stride = samples.stride;
+            let base =
+                samples.at.wrapping_sub(stride.step.wrapping_mul(I64Vec3::splat(samples.first)));
             let (first, end) = (samples.first.max(occupied[0]), samples.end.min(occupied[1]));
             // A stretch of exactly 1 is that of parallel rays and of the line of sight.
             let ratio = self.ratio * self.walk.stretch(ray);
             let ratio = if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio };
             let (origin, along) = (ray.origin, ray.along);
-            *lane = Lane { first, end, base, step, ratio, origin, along, stored: EMPTY };
+            *lane = Lane { first, end, base, stride, ratio, origin, along, stored: EMPTY };
             range = [range[0].min(first), range[1].max(end)];
         }
         range
     }
 
-    fn seek(&self, _: &mut Entered, k: i64, _: &mut Counts) -> i64 {
-        k
+    fn seek(&self, entered: &mut Entered, k: i64) -> i64 {
+        k.max(entered.next)
     }
 
     #[inline]
@@ -153,6 +161,9 @@ impl<T: Texel> Media for Medium<'_, T> {
             counts.cells_skipped += u64::from(!interesting);
         }
         counts.samples += u64::from(met.count_ones());
+        if let Some(pyramid) = self.pyramid.filter(|_| met == 0) {
+            entered.next = self.after(pyramid, entered, k, lanes);
+        }
         met
     }
 
@@ -169,6 +180,32 @@ impl<T: Texel> Media for Medium<'_, T> {
 }
 
 impl<T: Texel> Medium<'_, T> {
+    /// The first sample after `k`, which is empty for all of `lanes`, that one of them may meet gel at.
+    fn after(&self, pyramid: PyramidSlices<'_>, entered: &Entered, k: i64, lanes: Lanes) -> i64 {
+        let mut next = i64::MAX;
+        for lane in each(lanes).map(|index| &entered.lanes[index]).filter(|lane| k < lane.end) {
+            let own = if k < lane.first { lane.first } else { k + self.leap(pyramid, lane, k) };
+            next = next.min(own);
+            if next == k + 1 {
+                break;
+            }
+        }
+        next
+    }
+
+    /// How many samples on the first one of a ray beyond the empty cell of the pyramid around its sample `k` is: at least
+    /// 1, and never past a sample outside that cell.
+    fn leap(&self, pyramid: PyramidSlices<'_>, lane: &Lane, k: i64) -> i64 {
+        let at = lane.at(k);
+        let cell = cell(at);
+        let (entry, stored) = self.gel.brick(cell);
+        let level = match stored {
+            EMPTY => pyramid.empty_level(entry),
+            _ => empty_level_within(pyramid.cells(stored), cell),
+        };
+        lane.stride.leap(at, level)
+    }
+
     /// Sample `k`, at a place in a brick; with a cue, both parts of its colour together.
     #[inline]
     fn sample(&self, stored: u32, at: I64Vec3, k: i64) -> Vec4 {

@@ -116,12 +116,11 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
     let mut media = Vec::new();
     // Where dust is, nothing is stepped over; several volumes have one dust.
     let alone = dust.filter(|_| inputs.volumes.len() == 1);
+    let view = SharedView { camera, beams: &beams, slabs, cue, skips: dust.is_none() };
     for placed in &inputs.volumes {
-        let view = SharedView { camera, beams: &beams, slabs, cue, skips: dust.is_none() };
         media.push(view.medium(placed, alone)?);
     }
     let rays = Rays { camera, polygons, slabs };
-    let several = |media| Several { media, distance: slabs.distance, dust };
     match media.len() {
         0 => rays.refine(inputs, layout, &Nothing, watch),
         1 => match media.swap_remove(0) {
@@ -129,7 +128,10 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
             AnyMedium::U16(medium) => rays.refine(inputs, layout, &medium, watch),
             AnyMedium::U8(medium) => rays.refine(inputs, layout, &medium, watch),
         },
-        _ => rays.refine(inputs, layout, &several(media), watch),
+        _ => {
+            let several = Several { media, distance: slabs.distance, dust };
+            rays.refine(inputs, layout, &several, watch)
+        }
     }
 }
 

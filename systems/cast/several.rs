@@ -72,13 +72,12 @@ impl Media for Several<'_> {
         all
     }
 
-    fn seek(&self, entered: &mut EnteredAll, k: i64, counts: &mut Counts) -> i64 {
+    fn seek(&self, entered: &mut EnteredAll, k: i64) -> i64 {
         let mut least = i64::MAX;
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
             if within.next < k {
                 let from = k.max(within.range[0]);
-                let found =
-                    with_medium!(medium, inner => inner.seek(&mut within.entered, from, counts));
+                let found = with_medium!(medium, inner => inner.seek(&mut within.entered, from));
                 within.next = if found < within.range[1] { found } else { i64::MAX };
             }
             least = least.min(within.next);

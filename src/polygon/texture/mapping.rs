@@ -165,11 +165,8 @@ mod tests {
     #[test]
     fn a_face_seen_edge_on_has_a_footprint_that_is_huge_and_finite() {
         let mapping = Mapping::new(&face(), &textured(None, [1.0, 1.0])).unwrap();
-        let sides = {
-            let camera = camera(DVec3::X);
-            mapping.footprint(&camera, (&camera.ray(DVec2::ZERO), 0.0), 1.0)
-        }
-        .sides();
+        let camera = camera(DVec3::X);
+        let sides = mapping.footprint(&camera, (&camera.ray(DVec2::ZERO), 0.0), 1.0).sides();
         assert!(sides.is_finite());
         assert!(sides.x_axis.length().max(sides.y_axis.length()) > 1e3);
     }

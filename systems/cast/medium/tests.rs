@@ -108,7 +108,7 @@ fn taken(medium: &Medium<'_, [f32; 4]>, packet: &Packet<'_>, lane: usize, anew: 
     let [mut k, end] = medium.enter(packet, &mut entered);
     let lanes = lanes::first(packet.rays.len());
     while k < end {
-        let sought = medium.seek(&mut entered, k, &mut counts);
+        let sought = medium.seek(&mut entered, k);
         if k < anew && anew < sought {
             k = anew;
             continue;
