@@ -2,12 +2,11 @@
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use gelray::Error;
-use miette::NamedSource;
 
 use super::escaped::escaped;
+use super::excerpt::Excerpt;
 
 /// The work failed: the scene, the data, the disc.
 const FAILED: u8 = 1;
@@ -64,26 +63,15 @@ impl Failure {
 /// One sentence; on a terminal, a fault of a scene with the excerpt that it is in.
 fn explain(error: &Error) {
     match error {
-        Error::Scene(fault) if fault.span.is_some() && std::io::stderr().is_terminal() => {
-            let mut fault = fault.as_ref().clone();
-            fault.message = escaped(&fault.message);
-            fault.place = escaped(&fault.place);
-            fault.text = Arc::new(NamedSource::new(&fault.place, spelled(fault.text.inner())));
+        Error::Scene(fault) if std::io::stderr().is_terminal() => match Excerpt::of(fault) {
             // Colors of the excerpt are our own commands to the terminal.
-            let _ = writeln!(std::io::stderr(), "{:?}", miette::Report::new(fault));
-        }
+            Some(excerpt) => {
+                let _ = writeln!(std::io::stderr(), "{:?}", miette::Report::new(excerpt));
+            }
+            None => tell(format_args!("error: {fault}")),
+        },
         error => tell(format_args!("error: {error}")),
     }
-}
-
-/// A scene's text with each control character as one byte, so that what is marked stays where it is.
-fn spelled(text: &str) -> String {
-    let safe = |letter: char| match letter {
-        '\n' | '\t' | '\r' => letter,
-        _ if letter.is_ascii_control() => '?',
-        _ => letter,
-    };
-    text.chars().map(safe).collect()
 }
 
 /// A line on standard error; a closed one is no reason to stop.

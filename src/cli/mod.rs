@@ -6,6 +6,7 @@
 mod bytes;
 mod compare;
 mod escaped;
+mod excerpt;
 mod failure;
 mod flags;
 mod info;

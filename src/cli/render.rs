@@ -110,8 +110,8 @@ fn view_name(text: &str) -> String {
 fn blame(error: Error, source: &Source) -> Failure {
     let Error::Scene(fault) = &error else { return error.into() };
     let changed = || {
-        let (text, span) = (fault.text.inner(), fault.span?);
-        let begin = text.get(..span.offset())?.rfind('\n').map_or(0, |end| end + 1);
+        let (text, span) = (&fault.text, fault.span.as_ref()?);
+        let begin = text.get(..span.start)?.rfind('\n').map_or(0, |end| end + 1);
         let line = text.get(begin..)?.lines().next()?;
         Some(!source.text.lines().any(|own| own == line))
     };

@@ -1,6 +1,8 @@
 //! What is measured: histograms of volumes, errors between pictures, the cost of stages.
 
 pub mod cost;
+#[cfg(feature = "cli")]
+pub mod cost_table;
 pub mod error;
 pub mod histogram;
 mod isovalues;
