@@ -6,10 +6,16 @@ mod bad_input;
 mod inquiries;
 #[path = "program/interrupted.rs"]
 mod interrupted;
+#[path = "program/limits.rs"]
+mod limits;
 #[path = "program/misuse.rs"]
 mod misuse;
 #[path = "program/render.rs"]
 mod render;
+#[path = "program/sentences.rs"]
+mod sentences;
+#[path = "program/spared.rs"]
+mod spared;
 
 use std::fs;
 use std::path::{Path, PathBuf};

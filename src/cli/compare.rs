@@ -1,23 +1,26 @@
 //! `gelray compare`: the error between two images, in linear light and in sRGB, and where they differ.
 
+use std::borrow::Cow;
 use std::path::Path;
 
-use gelray::formats::pictures::write_picture;
 use gelray::formats::read_picture;
 use gelray::measure::error::{Difference, Errors, compare};
 use serde::Serialize;
 
 use super::failure::{Failure, print};
 use super::flags::Flags;
+use super::interrupt::Interrupt;
+use super::limit::Limit;
 use super::outputs;
+use super::results::Results;
 use super::table::table;
 
 /// All that `--stats` writes of a comparison.
 #[derive(Debug, Serialize)]
 struct Stats<'a> {
     version: &'static str,
-    a: &'a Path,
-    b: &'a Path,
+    a: Cow<'a, str>,
+    b: Cow<'a, str>,
     size: [usize; 2],
     linear: Errors,
     srgb: Errors,
@@ -27,9 +30,12 @@ struct Stats<'a> {
     non_finite: [usize; 2],
 }
 
-/// Prints the error between two images, and writes what was asked for.
+/// Flags that have a use here.
+pub const TAKES: &[&str] = &["--output", "--stats", "--fail-below"];
+
+/// Prints the error between two images, and writes what was asked for; fails where they are less alike than allowed.
 pub fn run(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
-    flags.refuse_others("compare", &["--output", "--stats"])?;
+    flags.refuse_others("compare", TAKES)?;
     if let Some(map) = &flags.output {
         outputs::check_picture(map)?;
     }
@@ -38,18 +44,21 @@ pub fn run(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
     let found = compare(&first, &second).map_err(|problem| {
         Failure::Said(format!("{} and {}: {problem}", a.display(), b.display()))
     })?;
+    let mut results = Results::default();
     if let Some(map) = &flags.output {
-        write_picture(map, &found.worst, &[])?;
+        results.picture(map, &found.worst, &[])?;
     }
     if let Some(path) = &flags.stats {
         let Difference { linear, srgb, worst_at, non_finite, .. } = found;
         let (version, size) = (env!("CARGO_PKG_VERSION"), first.size);
-        outputs::write_json(
-            path,
-            &Stats { version, a, b, size, linear, srgb, worst_at, non_finite },
-        )?;
+        let [a, b] = [a, b].map(Path::to_string_lossy);
+        results.json(path, &Stats { version, a, b, size, linear, srgb, worst_at, non_finite })?;
     }
-    print(&words(&found))
+    results.appear(&Interrupt::default())?;
+    if !flags.quiet && flags.output.as_deref().is_none_or(|map| !outputs::is_standard(map)) {
+        print(&words(&found))?;
+    }
+    flags.fail_below.iter().try_for_each(|limit: &Limit| limit.check(&found.linear))
 }
 
 fn words(found: &Difference) -> String {

@@ -1,17 +1,21 @@
 //! The flags: they mean the same for every verb, and one that a verb has no use for is refused rather than ignored.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::{OsStringValueParser, TypedValueParser};
 
 use super::bytes;
 use super::failure::Failure;
+use super::limit::Limit;
+use super::raw_header::RawHeader;
 
 /// All flags of all verbs.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Flags")]
 pub struct Flags {
-    /// The file to write; its extension says the format (.png .exr .tiff .npy)
+    /// The file to write; its extension says the format (.png .exr .tiff .npy); - is standard output (a PNG)
     #[arg(short, long, value_name = "OUT", global = true)]
     pub output: Option<PathBuf>,
     /// Pixels across and down, in place of the scene's
@@ -21,7 +25,7 @@ pub struct Flags {
     #[arg(long, value_name = "ENTITY.COMPONENT.KEY=VALUE", global = true)]
     pub set: Vec<String>,
     /// A folder to look for data in, before those of GELRAY_DATA (repeatable)
-    #[arg(long, value_name = "DIR", global = true, value_parser = folder)]
+    #[arg(long, value_name = "DIR", global = true, value_parser = OsStringValueParser::new().try_map(folder))]
     pub data: Vec<PathBuf>,
     /// How many threads compute [default: one a core]
     #[arg(short, long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -36,11 +40,17 @@ pub struct Flags {
     #[arg(long, value_name = "FILE.json", global = true)]
     pub trace: Option<PathBuf>,
     /// Writes where rays were cast, 4 × 4 positions a pixel
-    #[arg(long, value_name = "FILE.png", global = true, value_parser = png)]
+    #[arg(long, value_name = "FILE.png", global = true, value_parser = OsStringValueParser::new().try_map(png))]
     pub rays: Option<PathBuf>,
     /// Refuses to begin if the plan needs more bytes (8G, 512M)
     #[arg(long, value_name = "BYTES", global = true, value_parser = bytes::parse)]
     pub max_memory: Option<u64>,
+    /// Fails where the images are less alike, in linear light: psnr=40 or ssim=0.99 (repeatable)
+    #[arg(long, value_name = "MEASURE=NUMBER", global = true, value_parser = Limit::parse)]
+    pub fail_below: Vec<Limit>,
+    /// The header that a raw file lacks: 256x256x113,uint16,little[,1x1x2]: voxels, type, byte order, spacing in mm
+    #[arg(long, value_name = "HEADER", global = true, value_parser = RawHeader::parse)]
+    pub raw: Option<RawHeader>,
     /// Says nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
@@ -49,20 +59,37 @@ pub struct Flags {
     pub verbose: bool,
 }
 
+/// The flags that not every verb has a use for.
+pub const FOR_SOME: [&str; 10] = [
+    "--output",
+    "--size",
+    "--set",
+    "--exact",
+    "--stats",
+    "--trace",
+    "--rays",
+    "--max-memory",
+    "--fail-below",
+    "--raw",
+];
+
 impl Flags {
     /// Refuses the first flag that was given and that the verb does not take; `--data`, `-t`, `-q` and `-v` are for all.
     pub fn refuse_others(&self, verb: &str, takes: &[&str]) -> Result<(), Failure> {
         let given = [
-            ("--output", self.output.is_some()),
-            ("--size", self.size.is_some()),
-            ("--set", !self.set.is_empty()),
-            ("--exact", self.exact),
-            ("--stats", self.stats.is_some()),
-            ("--trace", self.trace.is_some()),
-            ("--rays", self.rays.is_some()),
-            ("--max-memory", self.max_memory.is_some()),
+            self.output.is_some(),
+            self.size.is_some(),
+            !self.set.is_empty(),
+            self.exact,
+            self.stats.is_some(),
+            self.trace.is_some(),
+            self.rays.is_some(),
+            self.max_memory.is_some(),
+            !self.fail_below.is_empty(),
+            self.raw.is_some(),
         ];
-        match given.iter().find(|(flag, given)| *given && !takes.contains(flag)) {
+        let mut flags = FOR_SOME.iter().zip(given);
+        match flags.find(|(flag, given)| *given && !takes.contains(flag)) {
             Some((flag, _)) => Err(Failure::Misused(format!(
                 "`gelray {verb}` has no use for {flag}; leave it away"
             ))),
@@ -88,13 +115,13 @@ impl Flags {
         self.data.iter().cloned().chain(folders).collect()
     }
 
-    /// Makes the threads that compute.
+    /// Makes the threads that compute: here, where a failure is a sentence, and not where they are first used.
     pub fn set_threads(&self) -> Result<(), Failure> {
-        let Some(threads) = self.threads else { return Ok(()) };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
+        let stated = self.threads.map_or(0, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(stated);
         pool.thread_name(|number| format!("thread {number}")).build_global().map_err(|error| {
             Failure::Said(format!(
-                "{threads} threads cannot be made ({error}); ask for fewer with --threads"
+                "the threads that compute cannot be made ({error}); ask for fewer with --threads, or raise the limits of the system (`ulimit -u`, `ulimit -v`)"
             ))
         })
     }
@@ -108,7 +135,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     })
 }
 
-fn folder(text: &str) -> Result<PathBuf, String> {
+fn folder(text: OsString) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     if path.is_dir() {
         Ok(path)
@@ -117,7 +144,7 @@ fn folder(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-fn png(text: &str) -> Result<PathBuf, String> {
+fn png(text: OsString) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension() {
         Some(end) if end.eq_ignore_ascii_case("png") => Ok(path),

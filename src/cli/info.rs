@@ -1,9 +1,10 @@
 //! `gelray info`: what a volume holds, where it lies, how its values are spread, and isovalues worth a contour.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use gelray::formats::pictures::format_of;
-use gelray::formats::{Loaded, Stated, Voxels, read_volume};
+use gelray::formats::{Loaded, Voxels, is_headerless, read_volume};
 use gelray::measure::histogram::{Histogram, histogram, suggested_isovalues};
 use gelray::measure::sigma::sigma;
 use gelray::phantom::phantom;
@@ -13,6 +14,7 @@ use glam::DVec3;
 use super::bytes::human;
 use super::failure::{Failure, tell};
 use super::flags::Flags;
+use super::raw_header::RawHeader;
 use super::table::table;
 use super::{info_picture, outputs};
 
@@ -22,26 +24,43 @@ const BINS: usize = 24;
 /// Letters of the longest bar.
 const BAR: f64 = 40.0;
 
+/// Flags that have a use here.
+pub const TAKES: &[&str] = &["--output", "--raw"];
+
 /// Prints what a file (or `phantom:NAME`) holds.
-pub fn run(file: &str, flags: &Flags) -> Result<(), Failure> {
-    flags.refuse_others("info", &["--output"])?;
+pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
+    flags.refuse_others("info", TAKES)?;
     let path = find(file, flags);
     outputs::check(flags, &[&path])?;
     if format_of(&path).is_some_and(|format| format.read.is_some()) {
         return outputs::print_or_write(&info_picture::words(&path)?, flags);
     }
-    let loaded = match file.strip_prefix("phantom:") {
+    let name = file.to_string_lossy();
+    let loaded = match name.strip_prefix("phantom:") {
         Some(name) => phantom(name.trim()).map_err(Failure::Said)?,
-        None => read_volume(&path, &Stated::default())?,
+        None => read(&path, flags)?,
     };
     for warning in loaded.warnings.iter().filter(|_| !flags.quiet) {
         tell(format_args!("warning: {warning}"));
     }
-    outputs::print_or_write(&words(file, &loaded), flags)
+    outputs::print_or_write(&words(&name, &loaded), flags)
+}
+
+/// The volume of a file; that of one without a header with the header that `--raw` states.
+fn read(path: &Path, flags: &Flags) -> Result<Loaded, Failure> {
+    let stated = flags.raw.as_ref().map(|RawHeader(stated)| stated.clone());
+    let asked = || {
+        let remedy = "state its header, such as --raw 256x256x113,uint16,little";
+        Failure::Said(format!("{}: has no header; {remedy}", path.display()))
+    };
+    if stated.is_none() && is_headerless(path) && path.is_file() {
+        return Err(asked());
+    }
+    Ok(read_volume(path, &stated.unwrap_or_default())?)
 }
 
 /// The file as given, or the first of that name in the folders of data.
-fn find(file: &str, flags: &Flags) -> PathBuf {
+fn find(file: &OsStr, flags: &Flags) -> PathBuf {
     let given = PathBuf::from(file);
     let elsewhere = || {
         flags.data_folders().into_iter().map(|folder| folder.join(file)).find(|path| path.exists())

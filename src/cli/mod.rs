@@ -5,6 +5,7 @@
 
 mod bytes;
 mod compare;
+mod empty;
 mod escaped;
 mod excerpt;
 mod failure;
@@ -12,10 +13,14 @@ mod flags;
 mod info;
 mod info_picture;
 mod interrupt;
+mod limit;
+mod memory;
 mod outputs;
 mod plan;
 mod progress;
+mod raw_header;
 mod render;
+mod results;
 mod same_file;
 mod scenes;
 mod schema;
@@ -27,7 +32,8 @@ mod verb_first;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::error::Error as Unparsed;
+use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use failure::Failure;
 use flags::Flags;
@@ -60,12 +66,12 @@ enum Verb {
     #[command(after_help = render::EXAMPLES)]
     Render {
         /// A scene file, or the name of an embedded scene [default: head]
-        scene: Option<String>,
+        scene: Option<OsString>,
     },
     /// Tells which systems would run, which not and why, and how many bytes they take
     Plan {
         /// A scene file, or the name of an embedded scene [default: head]
-        scene: Option<String>,
+        scene: Option<OsString>,
     },
     /// Tells the error between two images; with -o, an image of where they differ
     Compare {
@@ -77,7 +83,7 @@ enum Verb {
     /// Tells what a volume or an image holds: header, values, histogram, suggested isovalues
     Info {
         /// A file, or `phantom:NAME`
-        file: String,
+        file: OsString,
     },
     /// Lists the embedded scenes, or prints one
     Scenes {
@@ -88,9 +94,42 @@ enum Verb {
     Schema,
 }
 
+/// The flags that each verb has a use for, beside those of all: what its help lists.
+const TAKES: [(&str, &[&str]); 6] = [
+    ("render", render::TAKES),
+    ("plan", plan::TAKES),
+    ("compare", compare::TAKES),
+    ("info", info::TAKES),
+    ("scenes", scenes::TAKES),
+    ("schema", schema::TAKES),
+];
+
+/// The command line, with the flags that a verb has no use for hidden in its help.
+fn command() -> Command {
+    let mut command = Cli::command();
+    // Flags reach the verbs only now.
+    command.build();
+    for (verb, takes) in TAKES {
+        command = command.mut_subcommand(verb, |verb| {
+            verb.mut_args(|arg| {
+                let given = |flag: &&str| arg.get_long() == flag.strip_prefix("--");
+                let known = flags::FOR_SOME.iter().any(&given);
+                let hidden = known && !takes.iter().any(given);
+                arg.hide(hidden)
+            })
+        });
+    }
+    command
+}
+
+fn parse(arguments: Vec<OsString>) -> Result<Cli, Unparsed> {
+    let matches = command().try_get_matches_from(verb_first::verb_first(arguments))?;
+    Cli::from_arg_matches(&matches)
+}
+
 /// Parses the arguments, runs the verb and says what went wrong.
 pub fn main(arguments: Vec<OsString>) -> ExitCode {
-    match Cli::try_parse_from(verb_first::verb_first(arguments)) {
+    match parse(arguments) {
         Ok(Cli { verb, flags }) => match run(verb, &flags) {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => failure.report(),

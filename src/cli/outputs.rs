@@ -10,8 +10,16 @@ use super::failure::{Failure, print};
 use super::flags::Flags;
 use super::same_file::same_file;
 
+/// Whether a path is `-`: standard output.
+pub fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// Finds out whether a picture could be written; an extension that no picture has is a misuse.
 pub fn check_picture(path: &Path) -> Result<(), Failure> {
+    if is_standard(path) {
+        return Ok(());
+    }
     check_output(path).map_err(|error| {
         if format_of(path).is_some_and(|format| format.write.is_some()) {
             error.into()
@@ -25,6 +33,13 @@ pub fn check_picture(path: &Path) -> Result<(), Failure> {
 pub fn check(flags: &Flags, inputs: &[&Path]) -> Result<(), Failure> {
     let named = flags.outputs();
     for (at, (flag, path)) in named.iter().enumerate() {
+        if is_standard(path) && *flag != "--output" {
+            return Err(Failure::Misused(format!(
+                "{flag} cannot be standard output; give it a file"
+            )));
+        } else if is_standard(path) {
+            continue;
+        }
         check_writable(path)?;
         if let Some((other, _)) = named[..at].iter().find(|(_, other)| same_file(other, path)) {
             return Err(Failure::Misused(format!(
@@ -52,6 +67,7 @@ pub fn spare<P: AsRef<Path>>(flags: &Flags, inputs: &[P]) -> Result<(), Failure>
 /// Text to the file that `-o` names, or else to standard output.
 pub fn print_or_write(text: &str, flags: &Flags) -> Result<(), Failure> {
     match &flags.output {
+        Some(path) if is_standard(path) => print(text),
         Some(path) => write_text(path, text).map_err(Failure::from),
         None => print(text),
     }
@@ -60,14 +76,6 @@ pub fn print_or_write(text: &str, flags: &Flags) -> Result<(), Failure> {
 /// A file of text, whole or not at all.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Error> {
     write_whole(path, |out| Ok(out.write_all(text.as_bytes())?))
-}
-
-/// A file of JSON, whole or not at all.
-pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
-    write_whole(path, |out| {
-        serde_json::to_writer_pretty(&mut *out, value)?;
-        Ok(out.write_all(b"\n")?)
-    })
 }
 
 /// The extensions of the pictures that are written, for sentences.

@@ -1,22 +1,27 @@
 //! `gelray plan`: which systems run, which do not and why, sizes in bytes before anything is allocated.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
-use gelray::Error;
-use gelray::components::Name;
+use gelray::components::{Name, Sampling, View};
 use gelray::schedule::{Job, Plan, Schedule};
 use gelray::systems::JOBS;
+use gelray::view::extent::Extent;
+use gelray::volume::scene_volumes::visible;
 use hecs::World;
 
 use super::bytes::human;
 use super::failure::Failure;
 use super::flags::Flags;
 use super::table::table;
-use super::{outputs, render, stats};
+use super::{memory, outputs, render, stats};
+
+/// Flags that have a use here.
+pub const TAKES: &[&str] = &["--output", "--size", "--set", "--exact", "--max-memory"];
 
 /// Prints the plan of a scene.
-pub fn run(scene: Option<&str>, flags: &Flags) -> Result<(), Failure> {
-    flags.refuse_others("plan", &["--output", "--size", "--set", "--exact", "--max-memory"])?;
+pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
+    flags.refuse_others("plan", TAKES)?;
     let source = render::open(scene)?;
     outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
     let scene = render::load(&source, flags)?;
@@ -27,11 +32,23 @@ pub fn run(scene: Option<&str>, flags: &Flags) -> Result<(), Failure> {
 
 /// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
 pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
-    let needed = most_bytes(schedule, world);
-    match flags.max_memory {
-        Some(allowed) if needed > allowed => Err(Error::Memory { needed, allowed }.into()),
-        _ => Ok(()),
-    }
+    let taken = stats::voxels(world);
+    let needed = most_bytes(schedule, world) - taken;
+    memory::allowed(flags, taken).map_or(Ok(()), |allowed| allowed.check(needed, taken))
+}
+
+/// How many samples the view's rays can take, were nothing empty: a scene without a volume takes none.
+fn samples(world: &World) -> Option<String> {
+    let smallest =
+        visible(world).iter().map(|v| v.grid.spacing().min_element()).reduce(f64::min)?;
+    let mut views = world.query::<(&View, &Sampling, &Extent)>();
+    let (view, sampling, extent) = views.iter().next()?;
+    let distance = sampling.distance_mm.unwrap_or(smallest);
+    let a_ray = extent.samples(distance);
+    let all = a_ray * view.size.iter().map(|&n| f64::from(n)).product::<f64>();
+    Some(format!(
+        "A ray has up to {a_ray} samples, {distance} apart; at a ray a pixel up to {all:.3e} in all, less what is empty or hidden.\n"
+    ))
 }
 
 fn jobs(schedule: &Schedule) -> impl Iterator<Item = &Job> {
@@ -53,7 +70,7 @@ fn words(schedule: &Schedule, world: &World) -> String {
     let mut rows = vec![heading, read.map(str::to_owned)];
     rows.extend(jobs(schedule).map(|job| row(job, &(job.plan)(world), world)));
     rows.push(sum.map(str::to_owned));
-    table(&rows, &[2, 3])
+    table(&rows, &[2, 3]) + &samples(world).unwrap_or_default()
 }
 
 fn row(job: &Job, plan: &Plan, world: &World) -> [String; 7] {

@@ -1,10 +1,11 @@
 //! `gelray render`: one image of a scene.
 
+use std::ffi::OsStr;
 use std::path::Path;
 use std::time::Instant;
 
 use gelray::Error;
-use gelray::formats::pictures::{write_picture, write_ray_map};
+use gelray::formats::pictures::ray_map_beside;
 use gelray::scene::{Scene, Source};
 use gelray::schedule::{Ran, Schedule};
 use gelray::systems::JOBS;
@@ -16,10 +17,12 @@ use hecs::World;
 use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
+use super::memory::{self, Allowed};
 use super::progress::Progress;
+use super::results::Results;
 use super::stats::{Bytes, Counted, Seconds, Stats};
 use super::trace::Trace;
-use super::{outputs, plan};
+use super::{empty, outputs, plan};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -31,9 +34,14 @@ Examples:
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// Flags that have a use here.
+pub const TAKES: &[&str] =
+    &["--output", "--size", "--set", "--exact", "--stats", "--trace", "--rays", "--max-memory"];
+
 /// Renders the scene and writes what was asked for.
-pub fn run(scene: Option<&str>, flags: &Flags) -> Result<(), Failure> {
+pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     let start = Instant::now();
+    flags.refuse_others("render", TAKES)?;
     let out = flags.output.as_deref().ok_or_else(|| {
         Failure::Misused(format!(
             "`gelray render` needs a file to write; add -o OUT, a name that ends in one of {}",
@@ -49,28 +57,45 @@ pub fn run(scene: Option<&str>, flags: &Flags) -> Result<(), Failure> {
     let loaded = start.elapsed().as_secs_f64();
     let ran = run_systems(&mut scene.world, &interrupt, flags)?;
     let made = Rendered::of(&scene.world)?;
-    write_picture(out, &made.frame.0, &notes(&scene, &made, flags)?)?;
-    if let Some(path) = &flags.rays {
-        interrupt.watch.check()?;
-        let array = &made.samples.0;
-        write_ray_map(path, array.layout.size.map(|n| n * POSITIONS), &array.ray_map())?;
-    }
+    let (mut results, encode) = encoded(out, &scene, &made, flags)?;
+    interrupt.watch.check()?;
     let total = start.elapsed().as_secs_f64();
     if let Some(path) = &flags.stats {
-        interrupt.watch.check()?;
-        outputs::write_json(path, &stats(&scene, &made, &ran, [loaded, total], flags.exact))?;
+        results.json(path, &stats(&scene, &made, &ran, [loaded, encode, total], flags.exact))?;
     }
     if let Some((trace, path)) = trace {
-        trace.end(path)?;
+        results.keep(trace.end(path)?);
     }
-    interrupt.watch.check()?;
+    results.appear(&interrupt)?;
+    if let Some(warning) = empty::warning(&scene.world, &made.samples.0).filter(|_| !flags.quiet) {
+        tell(format_args!("warning: {warning}"));
+    }
     say_done(out, &made, &ran, total, flags);
     Ok(())
 }
 
+/// The picture and the map of its rays as their files hold them, and the seconds that took.
+fn encoded(
+    out: &Path,
+    scene: &Scene,
+    made: &Rendered,
+    flags: &Flags,
+) -> Result<(Results, f64), Failure> {
+    let _span = tracing::info_span!("encode").entered();
+    let start = Instant::now();
+    let mut results = Results::default();
+    results.picture(out, &made.frame.0, &notes(scene, made, flags)?)?;
+    if let Some(path) = &flags.rays {
+        let array = &made.samples.0;
+        let size = array.layout.size.map(|n| n * POSITIONS);
+        results.keep(ray_map_beside(path, size, &array.ray_map())?);
+    }
+    Ok((results, start.elapsed().as_secs_f64()))
+}
+
 /// The scene of an argument; without one, the first that is part of the program.
-pub fn open(scene: Option<&str>) -> Result<Source, Error> {
-    Source::open(scene.unwrap_or("head"))
+pub fn open(scene: Option<&OsStr>) -> Result<Source, Error> {
+    Source::open(scene.unwrap_or(OsStr::new("head")))
 }
 
 /// Reads a scene with the changes that flags ask for, and says what was guessed or replaced.
@@ -83,8 +108,14 @@ pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
         changes.push(format!("{}.view.size=[{width}, {height}]", view_name(&source.text)));
     }
     let data = flags.data_folders();
-    let scene = gelray::scene::load_within(source, &changes, &data, flags.exact, flags.max_memory)
-        .map_err(|error| blame(error, source))?;
+    let allowed = memory::allowed(flags, 0);
+    let most = allowed.map(Allowed::more);
+    let scene = gelray::scene::load_within(source, &changes, &data, flags.exact, most).map_err(
+        |error| match allowed {
+            Some(allowed) if matches!(error, Error::Memory { .. }) => allowed.blame(error),
+            _ => blame(error, source),
+        },
+    )?;
     outputs::spare(flags, &scene.files)?;
     for warning in scene.warnings.iter().filter(|_| !flags.quiet) {
         tell(format_args!("warning: {warning}"));
@@ -175,7 +206,7 @@ fn stats<'a>(
     scene: &'a Scene,
     made: &Rendered,
     ran: &'a [Ran],
-    [load, total]: [f64; 2],
+    [load, encode, total]: [f64; 3],
     exact: bool,
 ) -> Stats<'a> {
     let size = made.frame.0.size;
@@ -188,7 +219,7 @@ fn stats<'a>(
         systems: ran,
         counts: Counted::of(&scene.world, made.samples.0.counts, size),
         bytes: Bytes::of(&scene.world),
-        seconds: Seconds::of(ran, load, total),
+        seconds: Seconds::of(ran, load, encode, total),
     }
 }
 
@@ -201,6 +232,10 @@ fn say_done(out: &Path, made: &Rendered, ran: &[Ran], total: f64, flags: &Flags)
         tell(format_args!("{name}: {made} made, {reused} kept, {seconds:.3} s"));
     }
     let ([width, height], rays) = (made.frame.0.size, made.counts.rays_per_pixel);
-    let out = out.display();
+    let out = if outputs::is_standard(out) {
+        "standard output".into()
+    } else {
+        out.display().to_string()
+    };
     tell(format_args!("{out}: {width} × {height} pixels, {rays:.2} rays a pixel, {total:.3} s"));
 }

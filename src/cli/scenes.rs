@@ -7,9 +7,12 @@ use super::flags::Flags;
 use super::outputs;
 use super::table::table;
 
+/// Flags that have a use here.
+pub const TAKES: &[&str] = &["--output"];
+
 /// Lists the scenes with the first line of their comments, or prints the text of one.
 pub fn run(name: Option<&str>, flags: &Flags) -> Result<(), Failure> {
-    flags.refuse_others("scenes", &["--output"])?;
+    flags.refuse_others("scenes", TAKES)?;
     let text = match name {
         Some(name) => Source::embedded(name)?.text,
         None => table(&EMBEDDED.map(|(name, text)| [name.to_owned(), summary(text)]), &[]),
@@ -17,7 +20,13 @@ pub fn run(name: Option<&str>, flags: &Flags) -> Result<(), Failure> {
     outputs::print_or_write(&text, flags)
 }
 
-/// The first line of a scene's comment.
+/// The first lines of a scene's comment, up to one that ends a sentence.
 fn summary(text: &str) -> String {
-    text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default().to_owned()
+    let mut comment = text.lines().map_while(|line| line.strip_prefix("# "));
+    let mut summary = comment.next().unwrap_or_default().to_owned();
+    while !summary.ends_with('.') {
+        let Some(line) = comment.next() else { break };
+        summary = summary + " " + line;
+    }
+    summary
 }

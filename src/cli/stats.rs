@@ -10,6 +10,8 @@ use gelray::volume::pyramid::Pyramid;
 use hecs::World;
 use serde::Serialize;
 
+use super::memory::of_status;
+
 /// All that `--stats` writes.
 #[derive(Debug, Serialize)]
 pub struct Stats<'a> {
@@ -65,7 +67,7 @@ impl Bytes {
             gel: world.query::<&Gel>().iter().map(gel).sum(),
             pyramid: world.query::<&Pyramid>().iter().map(Pyramid::bytes).sum(),
             light: world.query::<&LightStrength>().iter().map(LightStrength::bytes).sum(),
-            peak_rss: peak_rss(),
+            peak_rss: of_status("VmHWM:"),
         }
     }
 }
@@ -77,12 +79,6 @@ pub fn voxels(world: &World) -> u64 {
     scalars + painted
 }
 
-fn peak_rss() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
-}
-
 /// Where the time went.
 #[derive(Debug, Serialize)]
 pub struct Seconds {
@@ -91,17 +87,19 @@ pub struct Seconds {
     prepare: f64,
     /// Casting rays and resampling.
     frame: f64,
+    /// Making the files of the picture and of its rays.
+    encode: f64,
     /// From the start to the last byte of the picture.
     total: f64,
 }
 
 impl Seconds {
     /// The sums of what systems took, beside what was timed around them.
-    pub fn of(ran: &[Ran], load: f64, total: f64) -> Self {
+    pub fn of(ran: &[Ran], load: f64, encode: f64, total: f64) -> Self {
         let of_frame = |ran: &Ran| matches!(ran.name, "cast" | "resample");
         let add = |sum: f64, ran: &Ran| sum + ran.seconds;
         let frame = ran.iter().filter(|ran| of_frame(ran)).fold(0.0, add);
         let prepare = ran.iter().filter(|ran| !of_frame(ran)).fold(0.0, add);
-        Self { load, prepare, frame, total }
+        Self { load, prepare, frame, encode, total }
     }
 }

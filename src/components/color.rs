@@ -1,4 +1,6 @@
-//! Colours: sRGB in scenes (`"#rrggbb"` or three numbers 0–1), linear light everywhere else.
+//! Colours: sRGB in scenes (`"#rrggbb"`, a name of CSS or three numbers 0–1), linear light everywhere else.
+
+mod names;
 
 use glam::Vec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -44,20 +46,27 @@ pub fn to_srgb(intensity: f32) -> f32 {
 #[derive(Deserialize, Serialize)]
 #[serde(untagged)]
 enum Written {
-    Hex(String),
+    Text(String),
     Channels([f32; 3]),
+}
+
+const EXPECTED: &str =
+    "a colour is \"#rrggbb\", a name of CSS such as \"white\", or three numbers in 0..=1, in sRGB";
+
+/// The number of `#rrggbb`.
+fn hex(text: &str) -> Option<u32> {
+    let digits = text.strip_prefix('#').filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
+    if digits.len() == 6 { u32::from_str_radix(digits, 16).ok() } else { None }
 }
 
 impl<'de> Deserialize<'de> for Color {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        const EXPECTED: &str = "a colour is \"#rrggbb\" or three numbers in 0..=1, in sRGB";
-        let written = Written::deserialize(deserializer).map_err(|_| D::Error::custom(EXPECTED))?;
+        let written = Written::deserialize(deserializer)
+            .map_err(|_| D::Error::custom(format!("found no colour: {EXPECTED}")))?;
         let srgb = match written {
             Written::Channels(channels) => channels,
-            Written::Hex(text) => {
-                let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.is_ascii());
-                let number = digits.and_then(|d| u32::from_str_radix(d, 16).ok());
-                let number = number.ok_or_else(|| {
+            Written::Text(text) => {
+                let number = hex(&text).or_else(|| names::named(&text)).ok_or_else(|| {
                     D::Error::custom(format!("\"{text}\" is no colour: {EXPECTED}"))
                 })?;
                 [16, 8, 0].map(|shift| (number >> shift & 0xff) as f32 / 255.0)
@@ -83,8 +92,9 @@ impl JsonSchema for Color {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "sRGB: \"#rrggbb\" or three numbers in 0..=1",
+            "description": "sRGB: \"#rrggbb\", a name of CSS or three numbers in 0..=1",
             "anyOf": [
+                { "type": "string", "pattern": names::pattern() },
                 { "type": "string", "pattern": "^#[0-9a-fA-F]{6}$" },
                 { "type": "array", "items": { "type": "number", "minimum": 0, "maximum": 1 }, "minItems": 3, "maxItems": 3 }
             ]

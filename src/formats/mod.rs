@@ -4,6 +4,7 @@ mod mrc;
 mod nifti;
 mod nrrd;
 mod number;
+mod part;
 mod raw;
 mod stated;
 mod stream;
@@ -136,8 +137,13 @@ pub fn survey(path: &Path, stated: &Stated) -> Result<Survey, Error> {
 #[must_use]
 pub fn is_volume(path: &Path) -> bool {
     let head = || Stream::open(path).ok()?.inflated_if_gzip().ok()?.peek(HEAD).ok();
-    let headerless = by_name(path).is_some_and(|format| format.recognizes.is_none());
-    (headerless && path.is_file()) || head().is_some_and(|head| by_head(&head).is_some())
+    (is_headerless(path) && path.is_file()) || head().is_some_and(|head| by_head(&head).is_some())
+}
+
+/// Whether a file's name is that of a format without a header, which the scene has to state.
+#[must_use]
+pub fn is_headerless(path: &Path) -> bool {
+    by_name(path).is_some_and(|format| format.recognizes.is_none())
 }
 
 fn read_stream(stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, String> {

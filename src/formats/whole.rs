@@ -1,10 +1,12 @@
 //! Output files appear whole or not at all: a temporary file in the same folder, then a rename.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{BufWriter, Seek, Write};
+use std::fs::{self, OpenOptions};
+use std::io::{BufWriter, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::NamedTempFile;
+
+use super::part;
 
 use crate::error::Error;
 
@@ -28,19 +30,66 @@ pub fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
 ) -> Result<(), Error> {
-    let written = if is_stream(path) { write_straight(path, write) } else { replace(path, write) };
-    written.map_err(|failure| match failure.downcast::<Error>() {
+    written_beside(path, write)?.appear()
+}
+
+/// A file that is written and not yet seen: dropped, it was never there.
+pub struct Whole {
+    path: PathBuf,
+    kept: Kept,
+}
+
+/// Where the bytes wait.
+enum Kept {
+    /// In a file beside the one that is to appear, under its final name.
+    Beside(NamedTempFile, PathBuf),
+    /// In memory: a stream takes no byte back.
+    Bytes(Vec<u8>),
+}
+
+/// The first half of [`write_whole`]: several files can be written and then appear together.
+pub fn written_beside(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
+) -> Result<Whole, Error> {
+    let kept = if is_stream(path) { in_memory(write) } else { beside(path, write) };
+    kept.map(|kept| Whole { path: path.to_owned(), kept })
+        .map_err(|failure| unwritable(path, failure))
+}
+
+impl Whole {
+    /// Lets the file be seen under its name, in place of an older one.
+    pub fn appear(self) -> Result<(), Error> {
+        let Self { path, kept } = self;
+        let appeared = match kept {
+            Kept::Beside(temporary, target) => {
+                temporary.persist(target).map(drop).map_err(|error| error.error)
+            }
+            Kept::Bytes(bytes) => OpenOptions::new()
+                .write(true)
+                .open(&path)
+                .and_then(|mut stream| stream.write_all(&bytes)),
+        };
+        appeared.map_err(|error| unwritable(&path, error.into()))
+    }
+}
+
+fn unwritable(path: &Path, failure: Failure) -> Error {
+    match failure.downcast::<Error>() {
         Ok(error) => *error,
         Err(failure) => Error::file(
             path,
-            format!("cannot be written ({failure}); check the folder and the space left, or choose another file"),
+            format!(
+                "cannot be written ({failure}); check the folder and the space left, or choose another file"
+            ),
         ),
-    })
+    }
 }
 
 /// Finds out, before any work is done, whether [`write_whole`] would be able to write at `path`.
 ///
 /// The sentence says what is in the way: a folder of that name, a folder that is missing or closed, a read-only file.
+/// What killed runs left half-written in the folder is removed.
 pub fn check_writable(path: &Path) -> Result<(), Error> {
     if is_stream(path) {
         return Ok(());
@@ -60,7 +109,10 @@ pub fn check_writable(path: &Path) -> Result<(), Error> {
         ));
     }
     match tempfile::tempfile_in(&folder) {
-        Ok(_) => Ok(()),
+        Ok(_) => {
+            part::sweep(&folder);
+            Ok(())
+        }
         Err(error) => refuse(format!(
             "its folder {} cannot be written to ({error}); choose another",
             folder.display()
@@ -68,40 +120,28 @@ pub fn check_writable(path: &Path) -> Result<(), Error> {
     }
 }
 
-fn replace(
+fn beside(
     path: &Path,
     write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+) -> Result<Kept, Failure> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if target.is_dir() {
         return Err("a folder has that name".into());
     }
-    let temporary = beside(&target)?;
+    let temporary = part::of(&folder_of(&target))?;
     if let Ok(older) = target.metadata() {
         temporary.as_file().set_permissions(older.permissions())?;
     }
     let mut buffered = BufWriter::new(temporary);
     write(&mut buffered)?;
-    buffered.into_inner().map_err(std::io::IntoInnerError::into_error)?.persist(target)?;
-    Ok(())
+    let temporary = buffered.into_inner().map_err(std::io::IntoInnerError::into_error)?;
+    Ok(Kept::Beside(temporary, target))
 }
 
-fn write_straight(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    let mut buffered: BufWriter<File> = BufWriter::new(OpenOptions::new().write(true).open(path)?);
-    write(&mut buffered)?;
-    Ok(buffered.flush()?)
-}
-
-/// A temporary file in the folder of `target`, as readable as any new file: the umask narrows the permissions.
-fn beside(target: &Path) -> std::io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    builder.prefix(".gelray-").suffix(".part");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder_of(target))
+fn in_memory(write: impl FnOnce(&mut dyn Sink) -> Result<(), Failure>) -> Result<Kept, Failure> {
+    let mut bytes = Cursor::new(Vec::new());
+    write(&mut bytes)?;
+    Ok(Kept::Bytes(bytes.into_inner()))
 }
 
 fn folder_of(path: &Path) -> PathBuf {

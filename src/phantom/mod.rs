@@ -16,13 +16,13 @@ pub use textures::texture;
 /// Makes a volume.
 type Maker = fn() -> Loaded;
 
-/// Every phantom: its name and its maker.
-const PHANTOMS: [(&str, Maker); 5] = [
-    ("head", head::head),
-    ("molecule", molecule::molecule),
-    ("ball", || simple::ball([64; 3], 24.0)),
-    ("slab", simple::slab),
-    ("ramp", simple::ramp),
+/// Every phantom: its name, its maker and how many voxels it has.
+const PHANTOMS: [(&str, (Maker, u64)); 5] = [
+    ("head", (head::head, 256 * 256 * 113)),
+    ("molecule", (molecule::molecule, 96 * 96 * 96)),
+    ("ball", (|| simple::ball([64; 3], 24.0), 64 * 64 * 64)),
+    ("slab", (simple::slab, 64 * 64 * 64)),
+    ("ramp", (simple::ramp, 64 * 64 * 64)),
 ];
 
 /// The names of all phantoms, as `phantom:NAME` takes them.
@@ -34,7 +34,15 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 ///
 /// The error for an unknown name is a sentence that lists the names.
 pub fn phantom(name: &str) -> Result<Loaded, String> {
-    choose(&PHANTOMS, name, "phantom").map(|make| make())
+    choose(&PHANTOMS, name, "phantom").map(|(make, _)| make())
+}
+
+/// The most bytes that making a phantom takes; 0 for an unknown name.
+#[must_use]
+pub fn most_bytes(name: &str) -> u64 {
+    // Some are made in floats and rounded to 16 bits.
+    let voxel = size_of::<f32>() + size_of::<u16>();
+    choose(&PHANTOMS, name, "phantom").map_or(0, |(_, voxels)| voxels * voxel as u64)
 }
 
 #[cfg(test)]
@@ -78,6 +86,7 @@ mod tests {
             let loaded = phantom(name).unwrap();
             let Voxels::Scalars(scalars) = &loaded.voxels else { unreachable!() };
             assert_eq!(scalars.len(), loaded.grid.voxels(), "{name}");
+            assert_eq!(most_bytes(name), 6 * scalars.len() as u64, "{name}");
             let middle = loaded.grid.corners().into_iter().sum::<glam::DVec3>() / 8.0;
             assert!(middle.length() < 1e-9, "{name}: {middle}");
             assert!(loaded.warnings.is_empty());

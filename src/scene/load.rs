@@ -38,7 +38,8 @@ pub fn load(
     load_within(source, overrides, data, exact, None)
 }
 
-/// [`load`], but for a volume or a texture that would take more than `most_bytes`: an error before any of it is read.
+/// [`load`], but for volumes and textures that would take more than `most_bytes`: an error before the one that is too much
+/// is read.
 pub fn load_within(
     source: &Source,
     overrides: &[String],
@@ -59,6 +60,7 @@ pub fn load_within(
         folders,
         warnings: Vec::new(),
         files: Vec::new(),
+        bytes: 0,
         most_bytes,
     };
     volume::bring_in(&mut loading)?;

@@ -20,6 +20,8 @@ pub(super) struct Loading<'t> {
     pub warnings: Vec<String>,
     /// Every file that was read, and those that a header in it names.
     pub files: Vec<PathBuf>,
+    /// Bytes that what was read takes.
+    pub bytes: u64,
     /// The most bytes that what is read may take; `None`: as many as there are.
     pub most_bytes: Option<u64>,
 }
@@ -62,10 +64,13 @@ impl Loading<'_> {
         self.entries[entry].fault(component, path, problem).within(self.text).into()
     }
 
-    /// An error if an array of `bytes` is more than may be read.
-    pub fn afford(&self, bytes: u64) -> Result<(), Error> {
+    /// Counts an array of `bytes` that is to be read; an error if it and those before are more than may be.
+    pub fn afford(&mut self, bytes: u64) -> Result<(), Error> {
+        self.bytes = self.bytes.saturating_add(bytes);
         match self.most_bytes {
-            Some(allowed) if bytes > allowed => Err(Error::Memory { needed: bytes, allowed }),
+            Some(allowed) if self.bytes > allowed => {
+                Err(Error::Memory { needed: self.bytes, allowed })
+            }
             _ => Ok(()),
         }
     }

@@ -37,16 +37,38 @@ fn one(document: &mut DocumentMut, names: &[String], change: &str) -> Result<(),
     let component = steps.next().unwrap_or_default();
     let known: Vec<_> = COMPONENTS.iter().map(|row| row.key).collect();
     let Some(row) = Row::of(component) else {
-        return Err(format!(
-            "there is no component `{component}`; {}",
-            suggestion(component, &known)
-        ));
+        return Err(without_entity(document, names, name, path.trim()).unwrap_or_else(|| {
+            format!("there is no component `{component}`; {}", suggestion(component, &known))
+        }));
     };
     let entity = entity(document, names, name, row)?;
     let steps: Vec<_> = steps.collect();
     let place = Place { path: row.key.to_owned(), schema: row.schema().clone() };
     let entry = entity.as_table_like_mut().ok_or("the entity is no table; write `[[entity]]`")?;
     set(entry.entry(row.key).or_insert(Item::None), &place, &steps, value)
+}
+
+/// The sentence about a path that begins with a component where an entity is meant: the entities that have it.
+fn without_entity(
+    document: &DocumentMut,
+    names: &[String],
+    component: &str,
+    path: &str,
+) -> Option<String> {
+    let row = Row::of(component).filter(|_| names.iter().all(|name| name != component))?;
+    let entities = document.get("entity").and_then(Item::as_array_of_tables);
+    let has = |index: usize| entities?.get(index)?.get(row.key);
+    let owners: Vec<&str> =
+        (0..names.len()).filter(|&i| has(i).is_some()).map(|i| names[i].as_str()).collect();
+    let owner = match owners.first() {
+        Some(owner) => owner,
+        None if row.key == "view" || row.key == "sampling" => "observer",
+        None => return None,
+    };
+    let others = if owners.len() > 1 { format!(" (of {})", list(&owners)) } else { String::new() };
+    Some(format!(
+        "there is no entity `{component}`: that is a component of `{owner}`{others}; write {owner}.{path}"
+    ))
 }
 
 /// The entity's name and the rest of the path; a name may have points in it, so known names go first, the longest before.

@@ -100,11 +100,12 @@ impl Source {
     }
 
     /// The file of that path if there is one, else the embedded scene of that name.
-    pub fn open(argument: &str) -> Result<Self, Error> {
-        let path = Path::new(argument);
+    pub fn open(argument: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = argument.as_ref();
         // A name with a folder or an ending is meant as a file: its own error says more than a list of scenes.
         let meant = path.components().count() > 1 || path.extension().is_some();
-        if path.is_file() || meant { Self::read(path) } else { Self::embedded(argument) }
+        let found = path.is_file() || meant;
+        if found { Self::read(path) } else { Self::embedded(&path.to_string_lossy()) }
     }
 
     /// The folder that the scene's paths are relative to; the working folder for an embedded scene.

@@ -8,6 +8,7 @@ use crate::error::SceneError;
 use crate::polygon::face::Faces;
 use crate::view::extent::Extent;
 use crate::volume::grid::Grid;
+use crate::volume::scene_volumes::visible;
 
 /// The bounding box of the volume's domain and of all polygons; the error is that there is neither.
 pub(super) fn extent(loading: &Loading) -> Result<Extent, Error> {
@@ -29,10 +30,34 @@ pub(super) fn extent(loading: &Loading) -> Result<Extent, Error> {
     }
 }
 
+/// The most samples that a ray may have before it is refused as a slip: a thousand for each voxel of a thousand in a row.
+const MOST_SAMPLES: f64 = (1 << 20) as f64;
+
+/// Refuses a sample distance at which a ray has more than [`MOST_SAMPLES`].
+fn check_distance(loading: &Loading, sampling: &Sampling, extent: Extent) -> Result<(), Error> {
+    let volumes = visible(&loading.world);
+    let smallest =
+        volumes.iter().map(|v| v.grid.spacing().min_element()).fold(f64::INFINITY, f64::min);
+    let samples = extent.samples(sampling.distance_mm.unwrap_or(smallest));
+    if volumes.is_empty() || samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let most = MOST_SAMPLES;
+    let least = 2.0 * extent.radius() / most;
+    let problem = format!(
+        "samples so near would be {samples:.0} along a ray through the scene, and {most} are the most; state a `distance_mm` of at least {least:.3e} or leave it away"
+    );
+    match loading.nouns(&["view"]).first() {
+        Some(&entry) => Err(loading.error(entry, "sampling", "distance_mm", problem)),
+        None => Err(SceneError::elsewhere(loading.text.file, problem).into()),
+    }
+}
+
 /// Gives the view its sampling and the extent of the scene; `exact` takes the settings of `--exact`.
 pub(super) fn bring_in(loading: &mut Loading, extent: Extent, exact: bool) -> Result<(), Error> {
     let sampled = |stated: Sampling| if exact { stated.exact() } else { stated };
     let Some(&entry) = loading.nouns(&["view"]).first() else {
+        check_distance(loading, &Sampling::default(), extent)?;
         loading.spawn("observer", (View::default(), sampled(Sampling::default()), extent));
         return Ok(());
     };
@@ -41,6 +66,7 @@ pub(super) fn bring_in(loading: &mut Loading, extent: Extent, exact: bool) -> Re
             .map_err(|problem| loading.error(entry, "depth_cue", "k2", problem))?;
     }
     let sampling = loading.get::<Sampling>(entry).unwrap_or_default();
+    check_distance(loading, &sampling, extent)?;
     loading.add(entry, (sampled(sampling), extent));
     Ok(())
 }

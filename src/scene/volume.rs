@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
 use crate::measure::histogram::suggested_isovalues;
 use crate::measure::sigma::sigma;
-use crate::phantom::phantom;
+use crate::phantom;
 use crate::volume::grid::{Grid, Scalars};
 
 /// Reads every volume that the scene states.
@@ -82,7 +82,8 @@ fn read_one(
     stated: &Stated,
 ) -> Result<Option<Loaded>, Error> {
     if let Some(name) = file.strip_prefix("phantom:") {
-        let made = phantom(name.trim());
+        loading.afford(phantom::most_bytes(name.trim()))?;
+        let made = phantom::phantom(name.trim());
         return made.map(Some).map_err(|problem| loading.error(entry, "volume", key, problem));
     }
     let Some(path) = loading.folders.find(file) else { return Ok(None) };

@@ -26,6 +26,12 @@ impl Extent {
         (self.low + self.high) / 2.0
     }
 
+    /// How many samples at that distance a ray through the whole scene has at the most.
+    #[must_use]
+    pub fn samples(&self, distance: f64) -> f64 {
+        (2.0 * self.radius() / distance).ceil()
+    }
+
     /// The radius of the box's bounding sphere.
     #[must_use]
     pub fn radius(&self) -> f64 {

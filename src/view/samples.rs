@@ -150,6 +150,13 @@ impl SampleArray {
         self.colors.value(&self.layout, &self.opened, i, j)
     }
 
+    /// Whether any ray met anything, however faint.
+    #[must_use]
+    pub fn meets_anything(&self) -> bool {
+        let met = |color: &[f32; 4]| color[3] > 0.0;
+        self.colors.lattice.iter().any(met) || self.colors.fine.as_flattened().iter().any(met)
+    }
+
     /// Whether a ray was cast at a position.
     #[must_use]
     #[inline]

@@ -1,5 +1,7 @@
 //! Pixels as files of 8 and 16 bits hold them: colours in sRGB, alpha linear and straight.
 
+use std::sync::LazyLock;
+
 use rayon::prelude::*;
 
 use crate::components::color::{to_linear, to_srgb};
@@ -14,8 +16,52 @@ pub fn to_codes([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
     let visible = alpha > 0.0;
     let alpha = alpha.min(1.0);
     let code = |channel: f32| (channel * 255.0).round() as u8; // `as` takes NaN to 0 and saturates
-    let color = |c: f32| if visible { code(to_srgb((c / alpha).clamp(0.0, 1.0))) } else { 0 };
+    let color = |c: f32| if visible { CURVE.code((c / alpha).clamp(0.0, 1.0)) } else { 0 };
     [color(r), color(g), color(b), if visible { code(alpha) } else { 0 }]
+}
+
+/// The curve of sRGB in 8 bits.
+static CURVE: LazyLock<Curve> = LazyLock::new(Curve::new);
+
+/// sRGB codes looked up instead of computed: the curve rises, so each code is an interval of intensities.
+struct Curve {
+    /// The least intensity of each code; beyond the last, none.
+    least: [f32; 257],
+    /// The code of the least intensity in each of equal parts of 0..=1.
+    first: [u8; PARTS + 1],
+}
+
+/// So many that a part holds the borders of two codes at the most, at the steep foot of the curve.
+const PARTS: usize = 4096;
+
+impl Curve {
+    fn new() -> Self {
+        let code = |intensity: f32| (to_srgb(intensity) * 255.0).round() as u8;
+        let mut least = [f32::INFINITY; 257];
+        for (wanted, least) in (0..=255_u8).zip(&mut least) {
+            // Floats from 0 up are in the order of their bits: halving finds the first of the code.
+            let (mut low, mut high) = (0, 1.0_f32.to_bits());
+            while low < high {
+                let middle = u32::midpoint(low, high);
+                if code(f32::from_bits(middle)) >= wanted {
+                    high = middle;
+                } else {
+                    low = middle + 1;
+                }
+            }
+            *least = f32::from_bits(low);
+        }
+        Self { least, first: std::array::from_fn(|part| code(part as f32 / PARTS as f32)) }
+    }
+
+    /// The code of an intensity in 0..=1; 0 for a NaN.
+    fn code(&self, intensity: f32) -> u8 {
+        let mut code = self.first[(intensity * PARTS as f32) as usize];
+        while intensity >= self.least[usize::from(code) + 1] {
+            code += 1;
+        }
+        code
+    }
 }
 
 /// All pixels of a picture as [`to_codes`] has them, row by row from the top, four bytes a pixel.
@@ -93,6 +139,17 @@ mod tests {
         // 0.48453 in sRGB, × 255 = 123.6; 0.001 is straight 0.002, below the knee: 0.02584 × 255 = 6.6.
         assert_eq!(to_codes([0.25, 0.1, 0.001, 0.5]), [188, 124, 7, 128]);
         assert_eq!(to_codes([1.0, 0.0, 0.215_9, 1.0]), [255, 0, 128, 255]);
+    }
+
+    #[test]
+    fn codes_are_looked_up_as_the_curve_has_them() {
+        let curve = |c: f32| (to_srgb(c) * 255.0).round() as u8;
+        let borders =
+            CURVE.least[..256].iter().flat_map(|c| [c.next_down().max(0.0), *c, c.next_up()]);
+        let spread = (0..300_000).map(|i| i as f32 / 300_000.0);
+        for intensity in borders.chain(spread).map(|c: f32| c.min(1.0)) {
+            assert_eq!(CURVE.code(intensity), curve(intensity), "{intensity}");
+        }
     }
 
     #[test]

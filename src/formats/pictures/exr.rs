@@ -2,6 +2,8 @@
 
 use std::io::Cursor;
 
+use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock};
+use exr::block::writer::ChunksWriter;
 use exr::image::{Encoding, Image, Layer, SpecificChannels};
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, IntegerBounds, LineOrder, Text};
@@ -19,7 +21,8 @@ use crate::view::picture::Picture;
 pub const FORMAT: PictureFormat =
     PictureFormat { name: "EXR", extensions: &["exr"], read: Some(read), write: Some(write) };
 
-/// Writes scan lines of float RGBA, compressed without loss (ZIP); a note is a text attribute `gelray.` and its name.
+/// Writes scan lines of float RGBA, compressed without loss (ZIP) by all threads; a note is a text attribute `gelray.` and
+/// its name.
 pub fn write(sink: &mut dyn Sink, picture: &Picture, notes: &Notes) -> Result<(), Failure> {
     let encoding = Encoding {
         compression: Compression::ZIP16,
@@ -40,7 +43,17 @@ pub fn write(sink: &mut dyn Sink, picture: &Picture, notes: &Notes) -> Result<()
         image.attributes.other.insert(name, text);
     }
     let mut file = Cursor::new(Vec::new());
-    image.write().non_parallel().to_buffered(&mut file)?;
+    let headers = image.write().infer_meta_data();
+    let blocks = super::exr_blocks::deflated(picture)?;
+    exr::block::write(&mut file, headers, true, |_, chunks| {
+        for (index, compressed_pixels_le) in blocks.into_iter().enumerate() {
+            let y_coordinate = (index * super::exr_blocks::LINES) as i32;
+            let lines = CompressedScanLineBlock { y_coordinate, compressed_pixels_le };
+            let compressed_block = CompressedBlock::ScanLine(lines);
+            chunks.write_chunk(index, Chunk { layer_index: 0, compressed_block })?;
+        }
+        Ok(())
+    })?;
     let mut bytes = file.into_inner();
     sort_attributes(&mut bytes).ok_or("its header has no end")?;
     Ok(sink.write_all(&bytes)?)

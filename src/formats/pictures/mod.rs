@@ -4,8 +4,10 @@
 //! floats are linear and associated. Nothing but the picture and its notes is written, no clock time: equal pictures and
 //! notes give equal bytes.
 
+mod bands;
 pub mod encoded;
 pub mod exr;
+mod exr_blocks;
 pub mod jpeg;
 pub mod npy;
 pub mod png;
@@ -16,13 +18,14 @@ pub mod tiff;
 mod tests;
 
 use std::fs;
+use std::io::Cursor;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::formats::whole::{Failure, Sink, check_writable, write_whole};
+use crate::formats::whole::{Failure, Sink, Whole, check_writable, written_beside};
 use crate::view::picture::Picture;
 
-pub use ray_map::write_ray_map;
+pub use ray_map::{ray_map_beside, write_ray_map};
 
 /// Named sentences that go with a picture (scene, settings, version, counts), in the order they are written.
 pub type Notes = [(String, String)];
@@ -91,18 +94,34 @@ pub fn read_picture(path: &Path) -> Result<Picture, Error> {
 /// height × width × 4, without notes. The name of a note is 1 to 64 printable ASCII characters without spaces, and no two
 /// are alike; its text is any text (NUL becomes U+FFFD).
 pub fn write_picture(path: &Path, picture: &Picture, notes: &Notes) -> Result<(), Error> {
+    picture_beside(path, picture, notes)?.appear()
+}
+
+/// The first half of [`write_picture`]: all but the moment in which the file is seen under its name.
+pub fn picture_beside(path: &Path, picture: &Picture, notes: &Notes) -> Result<Whole, Error> {
     let write = writer(path)?;
-    let notes = checked(notes).map_err(|problem| Error::file(path, problem))?;
+    let notes = writable(picture, notes).map_err(|problem| Error::file(path, problem))?;
+    written_beside(path, |sink| write(sink, picture, &notes))
+}
+
+/// The bytes of a PNG of a picture, as [`write_picture`] writes it; the failure is a sentence without a subject.
+pub fn png_bytes(picture: &Picture, notes: &Notes) -> Result<Vec<u8>, String> {
+    let notes = writable(picture, notes)?;
+    let mut bytes = Cursor::new(Vec::new());
+    png::write(&mut bytes, picture, &notes)
+        .map_err(|failure| format!("cannot be made ({failure})"))?;
+    Ok(bytes.into_inner())
+}
+
+/// The notes as they are written, if picture and notes can be.
+fn writable(picture: &Picture, notes: &Notes) -> Result<Vec<(String, String)>, String> {
     if picture.pixels.is_empty() {
         let [width, height] = picture.size;
-        return Err(Error::file(
-            path,
-            format!(
-                "cannot hold a picture of {width} × {height} pixels; state a size of at least 1 × 1"
-            ),
+        return Err(format!(
+            "cannot hold a picture of {width} × {height} pixels; state a size of at least 1 × 1"
         ));
     }
-    write_whole(path, |sink| write(sink, picture, &notes))
+    checked(notes)
 }
 
 /// Finds out, before a picture is rendered, whether [`write_picture`] would be able to write it at `path`.

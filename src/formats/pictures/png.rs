@@ -2,8 +2,11 @@
 
 use std::io::Cursor;
 
-use png::{BitDepth, ColorType, Decoder, Encoder, Limits, SrgbRenderingIntent, Transformations};
+use png::{
+    BitDepth, ColorType, Decoder, Encoder, Limits, SrgbRenderingIntent, Transformations, chunk,
+};
 
+use super::bands;
 use super::encoded::{Alpha, from_codes, to_bytes};
 use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
@@ -13,7 +16,7 @@ use crate::view::picture::Picture;
 pub const FORMAT: PictureFormat =
     PictureFormat { name: "PNG", extensions: &["png"], read: Some(read), write: Some(write) };
 
-/// Writes 8-bit RGBA, marked as sRGB, with each note as an `iTXt` chunk before the pixels.
+/// Writes 8-bit RGBA, marked as sRGB, with each note as an `iTXt` chunk before the pixels, which all threads deflate.
 pub fn write(sink: &mut dyn Sink, picture: &Picture, notes: &Notes) -> Result<(), Failure> {
     let mut encoder =
         Encoder::new(sink, u32::try_from(picture.size[0])?, u32::try_from(picture.size[1])?);
@@ -24,7 +27,9 @@ pub fn write(sink: &mut dyn Sink, picture: &Picture, notes: &Notes) -> Result<()
         encoder.add_itxt_chunk(name.clone(), text.clone())?;
     }
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&to_bytes(picture))?;
+    for part in bands::zlib(&to_bytes(picture), picture.size[0] * 4, 4)? {
+        writer.write_chunk(chunk::IDAT, &part)?;
+    }
     Ok(writer.finish()?)
 }
 

@@ -2,16 +2,22 @@
 
 use std::path::Path;
 
-use png::{BitDepth, ColorType, Encoder};
+use png::{BitDepth, ColorType, Encoder, chunk};
 
+use super::bands;
 use crate::error::Error;
-use crate::formats::whole::write_whole;
+use crate::formats::whole::{Whole, written_beside};
 
 /// Writes a map of rays as a grey PNG of one bit a pixel, white where a ray was `cast`, whole or not at all.
 ///
 /// `size` is positions across and down, `cast` one truth a position, row 0 at the top and x fastest; another number of
 /// them is an error.
 pub fn write_ray_map(path: &Path, size: [usize; 2], cast: &[bool]) -> Result<(), Error> {
+    ray_map_beside(path, size, cast)?.appear()
+}
+
+/// The first half of [`write_ray_map`]: all but the moment in which the file is seen under its name.
+pub fn ray_map_beside(path: &Path, size: [usize; 2], cast: &[bool]) -> Result<Whole, Error> {
     let [width, height] = size;
     if width == 0 || width.checked_mul(height) != Some(cast.len()) {
         return Err(Error::file(
@@ -28,12 +34,14 @@ pub fn write_ray_map(path: &Path, size: [usize; 2], cast: &[bool]) -> Result<(),
     // Each row begins with a byte of its own.
     let packed: Vec<u8> =
         cast.chunks_exact(width).flat_map(|row| row.chunks(8).map(eight)).collect();
-    write_whole(path, |sink| {
+    written_beside(path, |sink| {
         let mut encoder = Encoder::new(sink, u32::try_from(width)?, u32::try_from(height)?);
         encoder.set_color(ColorType::Grayscale);
         encoder.set_depth(BitDepth::One);
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&packed)?;
+        for part in bands::zlib(&packed, width.div_ceil(8), 1)? {
+            writer.write_chunk(chunk::IDAT, &part)?;
+        }
         Ok(writer.finish()?)
     })
 }
