@@ -1,5 +1,30 @@
-//! gelray renders mixtures of volumes and polygons as coloured, semi-transparent gel, after Levoy's "Rendering mixtures of
-//! geometric and volumetric data" (TR88-052, 1988). This page is the architecture; paper sections are §, figures by number.
+//! gelray renders mixtures of volumes and polygons as colored, semi-transparent gel, after Levoy's "Rendering mixtures of
+//! geometric and volumetric data" (TR88-052, 1988). A ball of gel, a polygon through it and a light, from arrays in memory:
+//!
+//! ```
+//! use gelray::prelude::*;
+//!
+//! # fn main() -> Result<(), Error> {
+//! // 32³ numbers, the last axis fastest: densest in the middle, 0 at a distance of 15 world units.
+//! let squares = |i: usize| [i / 1024, i / 32 % 32, i % 32].map(|n| (n as f32 - 15.5).powi(2));
+//! let density = |i: usize| 15.0 - squares(i).iter().sum::<f32>().sqrt();
+//! let voxels: Vec<f32> = (0..32 * 32 * 32).map(density).collect();
+//!
+//! let mut world = World::new();
+//! let (grid, scalars) = volume(voxels, [32; 3], [1.0; 3])?;
+//! world.spawn((grid, scalars, Classify::iso(4.0)));
+//! let square = [[-14.0, -14.0, 0.0], [14.0, -14.0, 0.0], [14.0, 14.0, 3.0], [-14.0, 14.0, 3.0]];
+//! let red = Color::from_srgb([0.9, 0.2, 0.1]);
+//! world.spawn((polygon(&square)?, Surface { color: red, opacity: 0.6, ..Surface::default() }));
+//! world.spawn((Light::from_direction([-0.4, -0.8, 0.5]),));
+//! let picture = Renderer::new()?.render(&mut world)?.picture;
+//! assert!(picture.pixel(190, 190)[3] > 0.9);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! [`prelude`] lists what entities may carry. The rest of this page is the architecture; paper sections are §, figures by
+//! number.
 //!
 //! # The house
 //!
@@ -38,9 +63,11 @@
 //! | `measure` | errors between pictures, histograms, the cost table |
 //! | `formats` | a file format a file |
 //! | `phantom` | volumes and textures made by formula |
+//! | `resolve` | what a world leaves out, filled in |
 //! | `scene` | TOML to a world of entities |
 //! | `systems` | the stages, a folder each |
 //! | `renderer` | the front door: a world in, a picture out |
+//! | `prelude` | what a caller needs of all rooms |
 //!
 //! # The walk of a voxel
 //!
@@ -134,7 +161,9 @@ pub mod light;
 pub mod measure;
 pub mod phantom;
 pub mod polygon;
+pub mod prelude;
 pub mod renderer;
+pub mod resolve;
 pub mod scene;
 pub mod schedule;
 pub mod shared;

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use hecs::{Entity, World};
 
 use crate::error::Error;
+use crate::resolve::resolve;
+use crate::scene::check_world;
 use crate::schedule::{Ran, Schedule, Watch};
 use crate::systems::JOBS;
 use crate::view::observer::first_view;
@@ -30,6 +32,8 @@ pub struct Rendered {
     pub samples: Arc<SampleArray>,
     /// The entity that carries the view.
     pub view: Entity,
+    /// What was guessed because the world does not state it, or is stated without effect: a sentence each.
+    pub notices: Vec<String>,
     /// Every system in the order in which they ran: how many products it made, how many it kept, and its seconds.
     pub ran: Vec<Ran>,
 }
@@ -59,14 +63,25 @@ impl Renderer {
 
     /// The picture of a world's first view.
     ///
-    /// Interrupted or failed, the world keeps what was made until then, and can be rendered again.
+    /// What the world states is held to what scene files are held to, and what it leaves out is filled in ([`resolve`]):
+    /// components are put on its entities, and a head light and an observer are spawned where there is none. The error is
+    /// the first thing that cannot be rendered, or that the [`watch`](Self::watch) was told to stop. Interrupted or failed, the world keeps what was made until then, and can be rendered again.
     pub fn render(&self, world: &mut World) -> Result<Rendered, Error> {
+        check_world(world)?;
+        let notices = resolve(world).map_err(|fault| fault.within(world))?;
+        let notices = notices.iter().map(|notice| notice.within(world)).collect();
         let ran = self.schedule.run(world, &self.watch)?;
         self.watch.check()?;
         let missing = || Error::Schedule("no system made a picture of the view".to_owned());
         let view = first_view(world).ok_or_else(missing)?;
         let mut made = world.query_one::<(&Frame, &Samples)>(view);
         let (frame, samples) = made.get().map_err(|_| missing())?;
-        Ok(Rendered { picture: frame.0.clone(), samples: Arc::clone(&samples.0), view, ran })
+        Ok(Rendered {
+            picture: frame.0.clone(),
+            samples: Arc::clone(&samples.0),
+            view,
+            notices,
+            ran,
+        })
     }
 }

@@ -1,9 +1,11 @@
 //! A fault of a scene as a terminal shows it: the sentence under the lines that it is in, with what is wrong marked.
 
+use gelray::Error;
 use gelray::error::SceneError;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 
 use super::escaped::escaped;
+use super::sentence::{place, sentence};
 
 /// A fault and the text around it, free of the text's own commands to the terminal.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -20,9 +22,9 @@ impl Excerpt {
     /// The excerpt of a fault; `None` where no text is to blame.
     pub fn of(fault: &SceneError) -> Option<Self> {
         let span = fault.span.clone()?;
-        let place = escaped(&fault.place);
+        let place = escaped(&place(fault));
         Some(Self {
-            sentence: escaped(&fault.to_string()),
+            sentence: escaped(&sentence(&Error::from(fault.clone()))),
             text: NamedSource::new(place, spelled(&fault.text)),
             span: SourceSpan::from((span.start, span.len())),
         })
@@ -41,7 +43,6 @@ fn spelled(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use gelray::Error;
     use gelray::scene::{Source, load};
 
     use super::*;

@@ -7,6 +7,7 @@ use gelray::Error;
 
 use super::escaped::escaped;
 use super::excerpt::Excerpt;
+use super::sentence::sentence;
 
 /// The work failed: the scene, the data, the disc.
 const FAILED: u8 = 1;
@@ -68,9 +69,9 @@ fn explain(error: &Error) {
             Some(excerpt) => {
                 let _ = writeln!(std::io::stderr(), "{:?}", miette::Report::new(excerpt));
             }
-            None => tell(format_args!("error: {fault}")),
+            None => tell(format_args!("error: {}", sentence(error))),
         },
-        error => tell(format_args!("error: {error}")),
+        error => tell(format_args!("error: {}", sentence(error))),
     }
 }
 

@@ -15,6 +15,7 @@ use super::bytes::human;
 use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::raw_header::RawHeader;
+use super::sentence::DATA;
 use super::table::table;
 use super::{info_picture, outputs};
 
@@ -36,7 +37,12 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
         return outputs::print_or_write(&info_picture::words(&path)?, flags);
     }
     let name = file.to_string_lossy();
-    let loaded = match name.strip_prefix("phantom:") {
+    let phantom_name = name.strip_prefix("phantom:");
+    if phantom_name.is_none() && !path.exists() {
+        let path = path.display();
+        return Err(Failure::Said(format!("{path}: no such file; correct the path ({DATA})")));
+    }
+    let loaded = match phantom_name {
         Some(name) => phantom(name.trim()).map_err(Failure::Said)?,
         None => read(&path, flags)?,
     };

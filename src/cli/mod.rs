@@ -24,6 +24,7 @@ mod results;
 mod same_file;
 mod scenes;
 mod schema;
+mod sentence;
 mod stats;
 mod table;
 mod trace;

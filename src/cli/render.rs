@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use gelray::Error;
+use gelray::error::Blame;
 use gelray::formats::pictures::ray_map_beside;
 use gelray::scene::{Scene, Source};
 use gelray::schedule::{Ran, Schedule};
@@ -20,6 +21,7 @@ use super::interrupt::Interrupt;
 use super::memory::{self, Allowed};
 use super::progress::Progress;
 use super::results::Results;
+use super::sentence::{DATA, sentence};
 use super::stats::{Bytes, Counted, Seconds, Stats};
 use super::trace::Trace;
 use super::{empty, outputs, plan};
@@ -118,7 +120,10 @@ pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
     )?;
     outputs::spare(flags, &scene.files)?;
     for warning in scene.warnings.iter().filter(|_| !flags.quiet) {
-        tell(format_args!("warning: {warning}"));
+        let missing = |file: &String| warning.contains(&format!("`{file}`"));
+        let remedy = if scene.missing.iter().any(missing) { DATA } else { "" };
+        let separator = if remedy.is_empty() { "" } else { "; " };
+        tell(format_args!("warning: {warning}{separator}{remedy}"));
     }
     Ok(scene)
 }
@@ -146,8 +151,8 @@ fn blame(error: Error, source: &Source) -> Failure {
         let line = text.get(begin..)?.lines().next()?;
         Some(!source.text.lines().any(|own| own == line))
     };
-    if fault.place.starts_with("--set ") || changed() == Some(true) {
-        return Failure::Misused(error.to_string());
+    if fault.blame == Blame::Override || changed() == Some(true) {
+        return Failure::Misused(sentence(&error));
     }
     error.into()
 }

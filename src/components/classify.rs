@@ -146,6 +146,14 @@ pub struct Material {
     pub color: Option<Color>,
 }
 
+impl Classify {
+    /// An opaque surface at one value of the scalars, in the material's color.
+    #[must_use]
+    pub fn iso(value: f32) -> Self {
+        Self { iso: vec![Contour::at(value)], ..Self::default() }
+    }
+}
+
 impl Contour {
     /// An opaque contour at `value`, two voxels thick, in the material's colour.
     #[must_use]

@@ -20,6 +20,20 @@ pub struct Light {
     pub color: Color,
 }
 
+impl Light {
+    /// A white light of strength 1 in a direction: from the scene towards the light, of any length above 0.
+    #[must_use]
+    pub fn from_direction(toward: [f64; 3]) -> Self {
+        Self { toward: Toward::Direction(toward), strength: one(), color: white() }
+    }
+
+    /// A white light of strength 1 at the observer.
+    #[must_use]
+    pub fn at_observer() -> Self {
+        Self { toward: Toward::Observer(Observer::Observer), strength: one(), color: white() }
+    }
+}
+
 /// Where a light is.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged)]

@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An image that polygons and lights may name: exactly one of `file` or `formula`.
+///
+/// In a world, a [`Picture`](crate::view::picture::Picture) on a named entity is such an image.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Texture {
@@ -39,6 +41,15 @@ pub struct Textured {
     /// How a pixel's footprint is averaged over it.
     #[serde(default)]
     pub filter: TextureFilter,
+}
+
+impl Textured {
+    /// The texture of that name, laid once by the polygon's own corners.
+    #[must_use]
+    pub fn by(name: &str) -> Self {
+        let (wrap, filter) = (Wrap::default(), TextureFilter::default());
+        Self { texture: name.to_owned(), corners: None, repeats: once(), wrap, filter }
+    }
 }
 
 /// What lies outside a texture.

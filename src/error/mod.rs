@@ -4,10 +4,13 @@ mod scene;
 
 use std::path::PathBuf;
 
-pub use scene::SceneError;
+pub use scene::{Blame, SceneError};
 
 /// A failure, told in one sentence that names what was found, what was expected and what to do.
+///
+/// The variants say whose fault it is and may become more.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The scene (or an override of it) states something that cannot be rendered.
     #[error("{0}")]
@@ -20,7 +23,15 @@ pub enum Error {
         /// What was found, what was expected and what to do.
         problem: String,
     },
-    /// A file cannot be read or is not what it says it is.
+    /// An array or a number that a caller handed over in memory does not do.
+    #[error("{what}: {problem}")]
+    Input {
+        /// What it was meant for: `volume`, `triangles`, `picture`, …
+        what: &'static str,
+        /// What was found, what was expected and what to do.
+        problem: String,
+    },
+    /// A file cannot be opened, read or written.
     #[error("{}: {problem}", path.display())]
     File {
         /// The file.
@@ -28,17 +39,25 @@ pub enum Error {
         /// What was found, what was expected and what to do.
         problem: String,
     },
-    /// The plan needs more memory than `--max-memory` allows.
+    /// A file can be read and is not what it says it is, or of no known format.
+    #[error("{}: {problem}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What was found, what was expected and what to do.
+        problem: String,
+    },
+    /// More memory may be needed than is allowed.
     #[error(
-        "the plan needs up to {needed} bytes and --max-memory allows {allowed}; raise the limit, choose a smaller `size` or volume, or a smaller `texel`"
+        "up to {needed} bytes are needed and {allowed} are allowed; allow more, or choose a smaller `size` or volume, or a smaller `texel`"
     )]
     Memory {
-        /// Bytes that the plan needs at the most.
+        /// Bytes that are needed at the most.
         needed: u64,
         /// Bytes that were allowed.
         allowed: u64,
     },
-    /// The work was stopped on request (exit code 130); what was finished stays.
+    /// The work was stopped on request; what was finished stays.
     #[error("interrupted: finished files are whole, nothing half-written is left")]
     Interrupted,
     /// A system and the schedule disagree: a defect of gelray, never of the input.
@@ -47,7 +66,17 @@ pub enum Error {
 }
 
 impl Error {
-    /// An error of the file at `path`.
+    /// An error of something handed over in memory.
+    pub fn input(what: &'static str, problem: impl Into<String>) -> Self {
+        Self::Input { what, problem: problem.into() }
+    }
+
+    /// An error of what the file at `path` holds.
+    pub fn format(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
+        Self::Format { path: path.into(), problem: problem.into() }
+    }
+
+    /// An error of reaching the file at `path`.
     pub fn file(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
         Self::File { path: path.into(), problem: problem.into() }
     }

@@ -109,28 +109,20 @@ pub static FORMATS: &[Format] = &[
 /// the file: needed by headerless files, and its spacing replaces that of any file. Fails where the file is missing,
 /// of no known format, damaged, or promises more than it holds; nothing is allocated that the file does not back.
 pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
-    stated
-        .check()
-        .and_then(|()| Stream::open(path))
-        .and_then(|stream| read_stream(stream, path, stated))
-        .map_err(|problem| Error::file(path, problem))
+    let wrong = |problem| Error::format(path, problem);
+    stated.check().map_err(wrong)?;
+    let stream = Stream::open(path).map_err(|problem| Error::file(path, problem))?;
+    read_stream(stream, path, stated).map_err(wrong)
 }
 
 /// Surveys a volume of any format in [`FORMATS`]: fails as [`read_volume`] does where the header cannot be read.
 pub fn survey(path: &Path, stated: &Stated) -> Result<Survey, Error> {
-    let promised = |stream| {
-        let (mut stream, format) = recognized(stream, path)?;
-        (format.promised)(&mut stream, path, stated)
-    };
-    stated
-        .check()
-        .and_then(|()| Stream::open(path))
-        .and_then(promised)
-        .map(|(bytes, beside)| Survey {
-            files: iter::once(path.into()).chain(beside).collect(),
-            bytes,
-        })
-        .map_err(|problem| Error::file(path, problem))
+    let wrong = |problem| Error::format(path, problem);
+    stated.check().map_err(wrong)?;
+    let stream = Stream::open(path).map_err(|problem| Error::file(path, problem))?;
+    let (mut stream, format) = recognized(stream, path).map_err(wrong)?;
+    let (bytes, beside) = (format.promised)(&mut stream, path, stated).map_err(wrong)?;
+    Ok(Survey { files: iter::once(path.into()).chain(beside).collect(), bytes })
 }
 
 /// Whether a file is a volume of a known format: by what it starts with, or by the name of a headerless one.
@@ -204,7 +196,7 @@ mod tests {
     #[test]
     fn a_missing_file_is_a_sentence_with_a_remedy() {
         let said = problem(Path::new("nowhere/head.nrrd"));
-        assert!(said.contains("no such file") && said.contains("--data"), "{said}");
+        assert!(said.contains("no such file") && said.contains("correct the path"), "{said}");
     }
 
     #[test]

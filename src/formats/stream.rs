@@ -31,9 +31,7 @@ impl Stream {
     /// Opens an ordinary file; the error is a sentence without a subject.
     pub(super) fn open(path: &Path) -> Result<Self, String> {
         let found = std::fs::metadata(path).map_err(|error| match error.kind() {
-            ErrorKind::NotFound => {
-                "no such file; correct the path, say where the data are with --data or GELRAY_DATA, or state a `stand_in`".to_owned()
-            }
+            ErrorKind::NotFound => "no such file; correct the path".to_owned(),
             _ => format!("cannot be read ({error}); check its permissions"),
         })?;
         if !found.is_file() {

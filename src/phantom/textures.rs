@@ -27,6 +27,11 @@ pub fn texture(name: &str) -> Result<Picture, String> {
     Picture::new([SIDE; 2], pixels).ok_or_else(|| format!("texture formula `{name}` has a gap"))
 }
 
+/// Passes if there is a texture formula called `name`; the error is a sentence that lists the names.
+pub fn is_texture(name: &str) -> Result<(), String> {
+    choose(&TEXTURES, name, "texture formula").map(|_| ())
+}
+
 fn grey(value: f32) -> [f32; 4] {
     [value, value, value, 1.0]
 }

@@ -1,5 +1,7 @@
 //! Polygons: checked faces, the textures that are mapped onto them, and what they cover of the voxels near them.
 
+pub mod arrays;
 pub mod coverage;
 pub mod face;
+pub(crate) mod shape;
 pub mod texture;

@@ -20,10 +20,10 @@ impl Text<'_> {
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().map_or(0, |l| l.chars().count()) + 1;
         SceneError {
-            message: message.into(),
-            place: format!("{}:{line}:{column}", self.file),
+            at: Some([line as u32, column as u32]),
             text: self.text.into(),
             span: Some(span),
+            ..SceneError::elsewhere(self.file, message)
         }
     }
 }
@@ -58,7 +58,7 @@ mod tests {
         let text = Text { file: "a.toml", text: "x = 1\ncö = 2\n" };
         assert_eq!(text.error(0..1, "no").to_string(), "a.toml:1:1: no");
         let at = text.text.rfind('=').unwrap();
-        assert_eq!(text.error(at..at + 1, "no").place, "a.toml:2:4");
-        assert_eq!(text.error(999..1000, "no").place, "a.toml:3:1");
+        assert_eq!(text.error(at..at + 1, "no").at, Some([2, 4]));
+        assert_eq!(text.error(999..1000, "no").at, Some([3, 1]));
     }
 }

@@ -8,8 +8,9 @@ use super::error::Text;
 use super::loading::{Folders, Loading};
 use super::parse::{Stated, parse};
 use super::source::Source;
-use super::{lights, overrides, polygons, textures, view, volume};
-use crate::error::Error;
+use super::{overrides, textures, volume};
+use crate::components::Sampling;
+use crate::error::{Blame, Error, SceneError};
 
 /// A scene that can be rendered.
 pub struct Scene {
@@ -17,6 +18,8 @@ pub struct Scene {
     pub world: World,
     /// What was guessed or replaced, a sentence each.
     pub warnings: Vec<String>,
+    /// The files that were found nowhere and that something stands in for: other folders of data may have them.
+    pub missing: Vec<String>,
     /// The TOML after overrides: what a picture notes so that it can be made again.
     pub resolved: String,
     /// Every file that was read beside the scene's own: volumes, the data files that their headers name, and textures.
@@ -28,7 +31,7 @@ pub struct Scene {
 /// Reads a scene with its overrides (`ENTITY.COMPONENT.KEY=VALUE`) and everything that it names.
 ///
 /// Files are looked for in the scene's folder, then in each folder of `data` and the folders in it. `exact` takes the
-/// settings of [`crate::components::Sampling::exact`] for the view. The error is of the first thing found wrong.
+/// settings of [`Sampling::exact`] for the view. The error is of the first thing found wrong.
 pub fn load(
     source: &Source,
     overrides: &[String],
@@ -50,8 +53,28 @@ pub fn load_within(
     let resolved = overrides::apply(&source.name, &source.text, overrides)?;
     // Lines are those of the changed text, which the file on disk need not have.
     let changed = resolved != source.text;
-    let file = if changed { format!("{} with --set", source.name) } else { source.name.clone() };
-    let Stated { text, world, entries } = parse(Text { file: &file, text: &resolved })?;
+    let blamed = |error| match error {
+        Error::Scene(fault) if changed => {
+            Error::Scene(Box::new(SceneError { blame: Blame::Overridden, ..*fault }))
+        }
+        error => error,
+    };
+    let text = Text { file: &source.name, text: &resolved };
+    let loading = read(text, source, data, exact, most_bytes).map_err(blamed)?;
+    let stem = Path::new(&source.name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let Loading { world, warnings, missing, files, .. } = loading;
+    Ok(Scene { world, warnings, missing, files, name: stem.unwrap_or_default(), resolved })
+}
+
+/// The scene of a text, with everything read that it names and filled in that it leaves out.
+fn read<'t>(
+    text: Text<'t>,
+    source: &Source,
+    data: &[PathBuf],
+    exact: bool,
+    most_bytes: Option<u64>,
+) -> Result<Loading<'t>, Error> {
+    let Stated { text, world, entries } = parse(text)?;
     let folders = Folders { scene: source.folder(), data: data.to_vec() };
     let mut loading = Loading {
         text,
@@ -59,17 +82,23 @@ pub fn load_within(
         entries,
         folders,
         warnings: Vec::new(),
+        missing: Vec::new(),
         files: Vec::new(),
         bytes: 0,
         most_bytes,
     };
-    volume::bring_in(&mut loading)?;
-    polygons::bring_in(&mut loading)?;
-    let extent = view::extent(&loading)?;
-    textures::bring_in(&mut loading, extent)?;
-    lights::bring_in(&mut loading, extent)?;
-    view::bring_in(&mut loading, extent, exact)?;
-    let stem = Path::new(&source.name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let Loading { world, warnings, files, .. } = loading;
-    Ok(Scene { world, warnings, files, name: stem.unwrap_or_default(), resolved })
+    volume::read(&mut loading)?;
+    textures::read(&mut loading)?;
+    loading.resolve()?;
+    if exact {
+        take_exact_settings(&mut loading.world);
+    }
+    Ok(loading)
+}
+
+/// Replaces what the view states by the settings of [`Sampling::exact`].
+fn take_exact_settings(world: &mut World) {
+    for sampling in world.query_mut::<&mut Sampling>() {
+        *sampling = sampling.exact();
+    }
 }

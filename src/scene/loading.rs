@@ -1,15 +1,13 @@
 //! A scene half-way: what is stated, what has been read so far, and where files are looked for.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use hecs::World;
 
-use super::entity::Unused;
 use super::error::Text;
 use super::parse::Entry;
-use crate::components::{Name, Order};
-use crate::error::Error;
+use crate::error::{Error, SceneError};
+use crate::resolve::{Fault, resolve};
 
 /// A scene half-way: its text, what is stated, and what has been read so far.
 pub(super) struct Loading<'t> {
@@ -18,6 +16,8 @@ pub(super) struct Loading<'t> {
     pub folders: Folders,
     pub world: World,
     pub warnings: Vec<String>,
+    /// Files that are nowhere and that something stands in for.
+    pub missing: Vec<String>,
     /// Every file that was read, and those that a header in it names.
     pub files: Vec<PathBuf>,
     /// Bytes that what was read takes.
@@ -43,14 +43,22 @@ impl Loading<'_> {
         let _ = self.world.insert(self.entries[entry].entity, components);
     }
 
-    /// An entity that the scene does not state, with a name that is free, after all others.
-    pub fn spawn(&mut self, name: &'static str, components: impl hecs::DynamicBundle) {
-        let taken: HashSet<_> =
-            self.world.query_mut::<&Name>().into_iter().map(|name| name.0.clone()).collect();
-        let entity = self.world.spawn(components);
-        let order = Order(taken.len() as u32);
-        let identity = (Name(Unused::beside(taken).take(name)), order);
-        let _ = self.world.insert(entity, identity);
+    /// Fills in what the scene leaves out, and keeps what was guessed as warnings.
+    pub fn resolve(&mut self) -> Result<(), Error> {
+        let notices = resolve(&mut self.world).map_err(|fault| self.located(fault))?;
+        let told = notices.iter().map(|notice| notice.within(&self.world));
+        self.warnings.extend(told.collect::<Vec<_>>());
+        Ok(())
+    }
+
+    /// A fault of the world, at its line of the scene.
+    fn located(&self, fault: Fault) -> Error {
+        let Fault { entity, component, path, problem } = fault;
+        let entry = self.entries.iter().position(|entry| Some(entry.entity) == entity);
+        match entry {
+            Some(entry) => self.error(entry, component, &path, problem),
+            None => SceneError::elsewhere(self.text.file, problem).into(),
+        }
     }
 
     /// An error of a component of an entry: `problem` is the rest of a sentence that the entity's name begins.
@@ -62,6 +70,18 @@ impl Loading<'_> {
         problem: impl AsRef<str>,
     ) -> Error {
         self.entries[entry].fault(component, path, problem).within(self.text).into()
+    }
+
+    /// The error of a file that is nowhere; `problem` is the rest of a sentence that the entity's name begins.
+    pub fn nowhere(
+        &self,
+        entry: usize,
+        (component, path): (&str, &str),
+        file: &str,
+        problem: impl AsRef<str>,
+    ) -> Error {
+        let fault = self.entries[entry].fault(component, path, problem).within(self.text);
+        SceneError { missing: Some(file.into()), ..fault }.into()
     }
 
     /// Counts an array of `bytes` that is to be read; an error if it and those before are more than may be.

@@ -7,23 +7,20 @@ mod check;
 mod entity;
 mod error;
 mod grammar;
-mod library;
-mod lights;
+mod handed_over;
 mod load;
 mod loading;
 mod nearest;
 mod overrides;
 mod parse;
-mod polygons;
-mod shape;
 mod source;
 mod table;
 #[cfg(test)]
 mod tests;
 mod textures;
-mod view;
 mod volume;
 
+pub use handed_over::check_world;
 pub use load::{Scene, load, load_within};
 pub use source::{EMBEDDED, Source};
 pub use table::schema;

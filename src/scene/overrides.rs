@@ -1,4 +1,4 @@
-//! `--set ENTITY.COMPONENT.KEY…=VALUE`: changes of a scene's text before it is read, so that spans stay right.
+//! Overrides, `ENTITY.COMPONENT.KEY…=VALUE`: changes of a scene's text before it is read, so that spans stay right.
 
 use serde_json::Value as Schema;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
@@ -21,7 +21,7 @@ pub(super) fn apply(file: &str, text: &str, overrides: &[String]) -> Result<Stri
             Text { file, text: &text }.error(e.span().unwrap_or(0..0), e.message())
         })?;
         one(&mut document, &names, change)
-            .map_err(|problem| SceneError::elsewhere(format!("--set {change}"), problem))?;
+            .map_err(|problem| SceneError::of_override(change, problem))?;
         Ok(document.to_string())
     })
 }

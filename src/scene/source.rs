@@ -75,7 +75,7 @@ impl Source {
         let bytes = ordinary(&path).map_err(|problem| Error::file(&path, problem))?;
         let text = String::from_utf8(bytes).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
-            Error::file(
+            Error::format(
                 &path,
                 format!("byte {at} is not UTF-8 text; a scene is TOML, write it as UTF-8"),
             )

@@ -1,10 +1,12 @@
 //! The one table of components: what a scene may state. A component more is a struct, its checks and a line here.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use hecs::EntityBuilder;
+use hecs::{Component, Entity, EntityBuilder, World};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value as Json, json};
 use toml::Spanned;
@@ -18,6 +20,9 @@ use crate::components::{
     Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
 };
 
+/// The entity that is at fault, and the sentence.
+type AtFault = (Entity, String);
+
 /// One component of the table.
 pub(super) struct Row {
     /// The key that states it.
@@ -28,12 +33,13 @@ pub(super) struct Row {
     /// The schema, once it was asked for: every entity is checked against it.
     made: OnceLock<Json>,
     read: fn(&Row, &Spanned<DeValue>, &mut EntityBuilder) -> Result<(), Fault>,
+    check_world: fn(&Row, &mut World) -> Result<(), AtFault>,
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
 pub(super) static COMPONENTS: [Row; 17] = [
     row::<Volume>("volume", &[]),
-    row::<Classify<Level>>("classify", &["volume"]),
+    row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
     row::<Clip>("clip", &["volume"]),
     row::<Polygon>("polygon", &[]),
@@ -72,6 +78,11 @@ impl Row {
         self.made.get_or_init(self.schema)
     }
 
+    /// Checks the component on every entity of a world that carries it, as [`read`](Self::read) does.
+    pub fn check_world(&self, world: &mut World) -> Result<(), AtFault> {
+        (self.check_world)(self, world)
+    }
+
     /// Reads the component, checks it and adds it to an entity.
     pub fn read(&self, value: &Spanned<DeValue>, entity: &mut EntityBuilder) -> Result<(), Fault> {
         (self.read)(self, value, entity)
@@ -80,9 +91,19 @@ impl Row {
 
 const fn row<T>(key: &'static str, with: &'static [&'static str]) -> Row
 where
-    T: DeserializeOwned + JsonSchema + Check + Send + Sync + 'static,
+    T: DeserializeOwned + JsonSchema + Check + Component + Clone + PartialEq + Serialize,
 {
-    Row { key, with, schema: schema_of::<T>, made: OnceLock::new(), read: read::<T> }
+    row_read_as::<T, T>(key, with)
+}
+
+/// A component that a scene states as a `T` and a world carries as a `W`.
+const fn row_read_as<T, W>(key: &'static str, with: &'static [&'static str]) -> Row
+where
+    T: DeserializeOwned + JsonSchema + Check + Component,
+    W: Component + Clone + PartialEq + Serialize,
+{
+    let made = OnceLock::new();
+    Row { key, with, schema: schema_of::<T>, made, read: read::<T>, check_world: check_all::<W> }
 }
 
 fn schema_of<T: JsonSchema>() -> Json {
@@ -106,6 +127,40 @@ where
     })?;
     entity.add(component);
     Ok(())
+}
+
+/// A component that was found to be in order.
+struct Checked<W>(W);
+
+/// Checks the components of one type, by writing each as a scene would state it and reading that.
+fn check_all<W>(row: &Row, world: &mut World) -> Result<(), AtFault>
+where
+    W: Component + Clone + PartialEq + Serialize,
+{
+    let mut fresh: Vec<(Entity, W)> = Vec::new();
+    for (entity, stated, checked) in &mut world.query::<(Entity, &W, Option<&Checked<W>>)>() {
+        if checked.is_none_or(|checked| checked.0 != *stated) {
+            fresh.push((entity, stated.clone()));
+        }
+    }
+    // Worlds of many polygons have few surfaces.
+    let mut last: Option<W> = None;
+    for (entity, stated) in fresh {
+        if last.as_ref() != Some(&stated) {
+            check(row, &stated).map_err(|problem| (entity, problem))?;
+            last = Some(stated.clone());
+        }
+        let _ = world.insert_one(entity, Checked(stated));
+    }
+    Ok(())
+}
+
+fn check<W: Serialize>(row: &Row, stated: &W) -> Result<(), String> {
+    let unwritten = |error| format!("`{}` cannot be used: {error}", row.key);
+    let text = toml::to_string(&BTreeMap::from([(row.key, stated)])).map_err(unwritten)?;
+    let root = DeTable::parse(&text).map_err(|error| error.message().to_owned())?;
+    let Some(value) = root.get_ref().get(row.key) else { return Ok(()) };
+    row.read(value, &mut EntityBuilder::new()).map_err(|fault| fault.message)
 }
 
 /// Writes single-precision defaults as short as they were meant: 0.02, not 0.019999999552965164.

@@ -1,66 +1,70 @@
-//! Textures found and given to the polygons and lights that name them.
+//! The pictures of a scene's textures: each that a polygon or a light names is read, once, and none else.
 
-use glam::DVec3;
+use std::collections::HashSet;
 
-use super::library::Library;
 use super::loading::Loading;
-use crate::components::{Polygon, Projects, Textured, Voxelize};
+use crate::components::{Projects, Texture, Textured};
 use crate::error::Error;
-use crate::light::strength::ProjectedBy;
-use crate::polygon::texture::TexturedBy;
-use crate::view::extent::Extent;
-use crate::volume::grid::Grid;
+use crate::formats::read_picture;
+use crate::phantom;
+use crate::view::picture::Picture;
 
-/// Resolves `textured` and `projects`: reads each texture that one of them names once, and none else.
+/// Puts its picture on every texture that something names.
 ///
 /// A texture that nothing names is warned of and not looked for: its file may be missing.
-pub(super) fn bring_in(loading: &mut Loading, extent: Extent) -> Result<(), Error> {
-    let mut library = Library::of(loading);
-    for entry in loading.nouns(&["polygon", "mesh"]) {
-        if let Some(textured) = loading.get::<Textured>(entry) {
-            let picture = library.picture(loading, entry, "textured", &textured.texture)?;
-            let corners = corners(loading, entry, &textured)?;
-            if loading.get::<Voxelize>(entry).is_some() {
-                loading.warn(entry, "its texture is not shown, since `voxelize` draws it without the hybrid ray tracer; take one of the two away");
-            }
-            let texture = library.texture(&picture, &textured);
-            loading.add(entry, (TexturedBy { textured, texture, corners },));
+pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
+    let mut named = HashSet::new();
+    for entry in 0..loading.entries.len() {
+        let textured = loading.get::<Textured>(entry).map(|textured| textured.texture);
+        let projects = loading.get::<Projects>(entry).map(|projects| projects.texture);
+        named.extend(textured.into_iter().chain(projects));
+    }
+    let entries = loading.nouns(&["texture"]);
+    let (read, unread): (Vec<usize>, Vec<usize>) =
+        entries.into_iter().partition(|&entry| named.contains(&loading.entries[entry].name));
+    for entry in read {
+        if let Some(texture) = loading.get::<Texture>(entry) {
+            let picture = picture(loading, entry, &texture)?;
+            loading.add(entry, (picture,));
         }
     }
-    let middle = middle(loading, extent);
-    for entry in loading.nouns(&["light"]) {
-        if let Some(projects) = loading.get::<Projects>(entry) {
-            let picture = library.picture(loading, entry, "projects", &projects.texture)?;
-            let center = projects.center.map_or(middle, DVec3::from);
-            let up = projects.up.map_or(DVec3::Z, DVec3::from);
-            loading.add(entry, (ProjectedBy { projects, picture, center, up },));
-        }
-    }
-    library.warn_of_unused(loading);
+    warn_of(&unread, loading);
     Ok(())
 }
 
-/// The centre of the volume, or of everything where there is none.
-fn middle(loading: &Loading, extent: Extent) -> DVec3 {
-    let grid = loading.nouns(&["volume"]).first().and_then(|&entry| loading.get::<Grid>(entry));
-    grid.and_then(|grid| Extent::of(grid.corners())).unwrap_or(extent).center()
+/// Warns of the textures that nothing names: a sentence for all of them.
+fn warn_of(unread: &[usize], loading: &mut Loading) {
+    let Some((&first, rest)) = unread.split_first() else { return };
+    let more = match rest.len() {
+        0 => "is not read: nothing names it".to_owned(),
+        count => format!("and {count} more textures are not read: nothing names them"),
+    };
+    let (first, remedy) =
+        (&loading.entries[first].name, "state `textured` or `projects`, or take it away");
+    let warning = format!("entity `{first}` {more}; {remedy}");
+    loading.warnings.push(warning);
 }
 
-/// The world points of the texture's top left, top right and bottom left.
-fn corners(loading: &Loading, entry: usize, textured: &Textured) -> Result<[DVec3; 3], Error> {
-    let of_polygon = || match loading.get::<Polygon>(entry)?.vertices[..] {
-        [first, second, .., last] => Some([first, second, last]),
-        _ => None,
+/// What a texture of the scene holds: its formula, its file, or what stands in for its file.
+fn picture(loading: &mut Loading, entry: usize, texture: &Texture) -> Result<Picture, Error> {
+    let made = |loading: &Loading, key, name: &str| {
+        phantom::texture(name).map_err(|problem| loading.error(entry, "texture", key, problem))
     };
-    let Some(corners) = textured.corners.or_else(of_polygon) else {
-        let problem = "a mesh says nothing about where its texture lies; state `corners`";
-        return Err(loading.error(entry, "textured", "", problem));
-    };
-    let corners = corners.map(DVec3::from);
-    let (across, down) = (corners[1] - corners[0], corners[2] - corners[0]);
-    if across.cross(down).length() <= 1e-12 * across.length() * down.length() {
-        let problem = "the corners of its texture lie on one line; state three that span it";
-        return Err(loading.error(entry, "textured", "corners", problem));
+    if let Some(formula) = &texture.formula {
+        return made(loading, "formula", formula);
     }
-    Ok(corners)
+    let file = texture.file.as_deref().unwrap_or_default();
+    if let Some(path) = loading.folders.find(file) {
+        loading.files.push(path.clone());
+        return read_picture(&path);
+    }
+    let missing = loading.folders.missing(file);
+    let Some(formula) = &texture.stand_in else {
+        let problem = format!("{missing}; name its folder as a data folder or state a `stand_in`");
+        return Err(loading.nowhere(entry, ("texture", "file"), file, problem));
+    };
+    let remedy = "name its folder as a data folder";
+    loading.warn(entry, format!("{missing}: the formula `{formula}` stands in for it; {remedy}"));
+    loading.missing.push(file.to_owned());
+    made(loading, "stand_in", formula)
 }

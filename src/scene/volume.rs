@@ -6,27 +6,28 @@ use super::loading::Loading;
 use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
-use crate::measure::histogram::suggested_isovalues;
 use crate::measure::sigma::sigma;
 use crate::phantom;
 use crate::volume::grid::{Grid, Scalars};
 
 /// Reads every volume that the scene states.
-pub(super) fn bring_in(loading: &mut Loading) -> Result<(), Error> {
-    loading.nouns(&["volume"]).into_iter().try_for_each(|entry| bring_in_one(loading, entry))
+pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
+    loading.nouns(&["volume"]).into_iter().try_for_each(|entry| read_and_place(loading, entry))
 }
 
-fn bring_in_one(loading: &mut Loading, entry: usize) -> Result<(), Error> {
+fn read_and_place(loading: &mut Loading, entry: usize) -> Result<(), Error> {
     let Some(volume) = loading.get::<Volume>(entry) else { return Ok(()) };
-    let (read, stands_in) = read(loading, entry, &volume)?;
+    let (read, stands_in) = voxels(loading, entry, &volume)?;
     for warning in read.warnings {
         loading.warn(entry, warning);
     }
     let spacing = if stands_in { None } else { volume.spacing_mm };
     let grid = placed(&read.grid, spacing, volume.center)
         .map_err(|problem| loading.error(entry, "volume", "spacing_mm", problem))?;
-    let unit = volume.opacity_unit_mm.unwrap_or_else(|| grid.spacing().min_element());
-    loading.add(entry, (grid, OpacityUnit(unit)));
+    loading.add(entry, (grid,));
+    if let Some(unit) = volume.opacity_unit_mm {
+        loading.add(entry, (OpacityUnit(unit),));
+    }
     match read.voxels {
         Voxels::Scalars(scalars) => classified(loading, entry, scalars),
         Voxels::Painted(painted) => {
@@ -48,7 +49,7 @@ fn bring_in_one(loading: &mut Loading, entry: usize) -> Result<(), Error> {
 }
 
 /// The voxels of the file, or of what stands in for it.
-fn read(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded, bool), Error> {
+fn voxels(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded, bool), Error> {
     let stated = Stated {
         size: volume.size,
         voxel_type: volume.voxel_type.clone(),
@@ -60,16 +61,17 @@ fn read(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loaded,
         return Ok((read, false));
     }
     let missing = loading.folders.missing(&volume.file);
-    let remedy = "give its folder with --data DIR";
+    let remedy = "name its folder as a data folder";
     let Some(stand_in) = &volume.stand_in else {
         let problem = format!("{missing}; {remedy} or state a `stand_in`");
-        return Err(loading.error(entry, "volume", "file", problem));
+        return Err(loading.nowhere(entry, ("volume", "file"), &volume.file, problem));
     };
     let Some(read) = read_one(loading, entry, "stand_in", stand_in, &Stated::default())? else {
         let problem = format!("{missing}, and neither is its stand-in `{stand_in}`; {remedy}");
-        return Err(loading.error(entry, "volume", "stand_in", problem));
+        return Err(loading.nowhere(entry, ("volume", "stand_in"), &volume.file, problem));
     };
     loading.warn(entry, format!("{missing}: `{stand_in}` stands in for it; {remedy}"));
+    loading.missing.push(volume.file.clone());
     Ok((read, true))
 }
 
@@ -114,26 +116,15 @@ fn placed(
     Grid::new(grid.size, placement)
 }
 
-/// Puts scalars on the entity, with a classification in numbers and a material.
+/// Puts scalars on the entity, with the classification in numbers if one is stated.
 fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(), Error> {
-    let classify = match loading.get::<Classify<Level>>(entry) {
-        Some(stated) => in_numbers(loading, entry, stated, &scalars)?,
-        None => suggested(loading, entry, &scalars)?,
-    };
-    let material = loading.get::<Material>(entry).unwrap_or_default();
-    let _ = loading.world.remove_one::<Classify<Level>>(loading.entries[entry].entity);
-    loading.add(entry, (scalars, classify, material));
+    if let Some(stated) = loading.get::<Classify<Level>>(entry) {
+        let classify = in_numbers(loading, entry, stated, &scalars)?;
+        let _ = loading.world.remove_one::<Classify<Level>>(loading.entries[entry].entity);
+        loading.add(entry, (classify,));
+    }
+    loading.add(entry, (scalars,));
     Ok(())
-}
-
-/// A contour at the isovalue that the histogram suggests, where the scene states no classification.
-fn suggested(loading: &mut Loading, entry: usize, scalars: &Scalars) -> Result<Classify, Error> {
-    let Some(&value) = suggested_isovalues(scalars).first() else {
-        let problem = "the volume suggests no isovalue (its voxels are all alike or not numbers); state `classify`";
-        return Err(loading.error(entry, "volume", "", problem));
-    };
-    loading.warn(entry, format!("no `classify` is stated, so its surface is drawn at the isovalue {value} that its histogram suggests"));
-    Ok(Classify { iso: vec![Contour::at(value)], ..Classify::default() })
 }
 
 /// Levels in standard deviations as numbers.

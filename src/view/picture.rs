@@ -1,5 +1,7 @@
 //! Pictures in memory: what a view sees, what a texture holds, what `compare` compares.
 
+use crate::components::color::to_linear;
+use crate::error::Error;
 use crate::schedule::Product;
 use crate::shared::Shared;
 
@@ -20,6 +22,24 @@ impl Picture {
     pub fn new(size: [usize; 2], pixels: Vec<[f32; 4]>) -> Option<Self> {
         (size[0].checked_mul(size[1])? == pixels.len())
             .then(|| Self { size, pixels: Shared::new(pixels) })
+    }
+
+    /// A picture of 8-bit sRGB with straight alpha, as image files and windows have it: row 0 is the top, x runs fastest.
+    ///
+    /// The error is another number of pixels than `size` multiplies to.
+    pub fn from_srgb(size: [usize; 2], pixels: &[[u8; 4]]) -> Result<Self, Error> {
+        let linear = |&[r, g, b, alpha]: &[u8; 4]| {
+            let alpha = f32::from(alpha) / 255.0;
+            let [r, g, b] = [r, g, b].map(|code| to_linear(f32::from(code) / 255.0) * alpha);
+            [r, g, b, alpha]
+        };
+        Self::new(size, pixels.iter().map(linear).collect()).ok_or_else(|| {
+            let ([width, height], count) = (size, pixels.len());
+            let problem = format!(
+                "{count} pixels do not fill {width} × {height}; hand over as many as the two sizes multiply to"
+            );
+            Error::input("picture", problem)
+        })
     }
 
     /// The pixel at column `x` of row `y`; panics outside the picture.

@@ -1,5 +1,6 @@
 //! Volumes: where voxels are and what they hold, how they are classified, and the gel that rays meet.
 
+pub mod arrays;
 pub mod bricks;
 pub mod classification;
 pub mod clipping;

@@ -84,7 +84,7 @@ pub fn read_picture(path: &Path) -> Result<Picture, Error> {
             format!("is no file of at most {LONGEST_FILE} bytes; state the path of a picture"),
         ));
     }
-    read(&fs::read(path).map_err(unreadable)?).map_err(|problem| Error::file(path, problem))
+    read(&fs::read(path).map_err(unreadable)?).map_err(|problem| Error::format(path, problem))
 }
 
 /// Writes a picture in the format that the name's extension says, whole or not at all.
@@ -146,7 +146,7 @@ fn unknown(path: &Path, able: impl Fn(&PictureFormat) -> bool) -> Error {
         .filter(|format| able(format))
         .flat_map(|format| format.extensions.iter().map(|extension| format!(".{extension}")))
         .collect();
-    Error::file(path, format!("{found}; name a picture with one of {}", known.join(", ")))
+    Error::format(path, format!("{found}; name a picture with one of {}", known.join(", ")))
 }
 
 fn checked(notes: &Notes) -> Result<Vec<(String, String)>, String> {

@@ -218,7 +218,7 @@ proptest::proptest! {
         }
         let _ = crate::scene::overrides::apply("s.toml", &damaged, std::slice::from_ref(&path));
         if let Err(error) = crate::scene::overrides::apply("s.toml", text, std::slice::from_ref(&path)) {
-            assert!(error.to_string().starts_with("--set "), "{error}");
+            assert!(error.to_string().starts_with("override `"), "{error}");
         }
     }
 }

@@ -129,7 +129,9 @@ fn a_file_that_is_nowhere_is_stood_in_for_with_a_warning_or_refused_with_a_remed
     );
     let Scene { world, warnings, .. } = loaded(&there, &[]).unwrap();
     assert!(
-        warnings.iter().any(|w| w.contains("`phantom:ball` stands in") && w.contains("--data")),
+        warnings
+            .iter()
+            .any(|w| w.contains("`phantom:ball` stands in") && w.contains("data folder")),
         "{warnings:?}"
     );
     assert_ne!(only::<Grid>(&world).spacing(), glam::DVec3::splat(9.0));
@@ -149,7 +151,7 @@ fn a_file_is_found_in_a_folder_of_a_data_folder() {
     let source = Source::inline("s.toml", BALL.replace("phantom:ball", "is.nrrd"));
     let error = load(&source, &[], &[data.path().to_path_buf()], false).err().unwrap();
     assert!(
-        matches!(&error, crate::Error::File { path, .. } if path.ends_with("inner/is.nrrd")),
+        matches!(&error, crate::Error::Format { path, .. } if path.ends_with("inner/is.nrrd")),
         "{error}"
     );
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::components::{Ellipsoid, Prism};
 
 /// The triangles of an ellipsoid, `20 · 4^subdivisions`, counter-clockwise seen from outside; shared edges share their bits.
-pub(super) fn ellipsoid(shape: &Ellipsoid) -> Vec<Vec<DVec3>> {
+pub fn ellipsoid(shape: &Ellipsoid) -> Vec<Vec<DVec3>> {
     let (mut directions, mut triangles) = icosahedron();
     for _ in 0..shape.subdivisions {
         triangles = subdivide(&mut directions, &triangles);
@@ -74,7 +74,7 @@ fn subdivide(directions: &mut Vec<DVec3>, triangles: &[[usize; 3]]) -> Vec<[usiz
 /// The faces of a prism, counter-clockwise seen from outside: its sides, then the first and the last end.
 ///
 /// `from` and `to` must differ, and `sides` be at least 3.
-pub(super) fn prism(shape: &Prism) -> Vec<Vec<DVec3>> {
+pub fn prism(shape: &Prism) -> Vec<Vec<DVec3>> {
     let (from, to) = (DVec3::from(shape.from), DVec3::from(shape.to));
     let axis = (to - from).normalize();
     // Across from the world's axis that the prism least follows: a prism along x has its first edge over +y.

@@ -1,0 +1,32 @@
+//! What a program needs that renders from arrays in memory: `use gelray::prelude::*;`.
+//!
+//! A world of entities is a [`World`]; what an entity is and how it looks is what is put on it:
+//!
+//! | entity | components |
+//! |---|---|
+//! | a volume | [`volume`] or [`painted_volume`] of an array; [`Classify`], [`Material`], [`Clip`], [`OpacityUnit`] |
+//! | a polygon, a mesh | [`polygon`], [`triangles`], or a [`Polygon`] or [`Mesh`]; [`Surface`], [`Voxelize`], [`Textured`] |
+//! | a light | [`Light`]; [`CastsShadow`], [`Projects`], [`Shaft`] |
+//! | a texture | a [`Name`] and a [`Picture`] |
+//! | the view | [`View`]; [`Sampling`], [`DepthCue`] |
+//!
+//! All of it may be left out but something to see. A [`Renderer`] gives the picture of a world, again and again, and makes
+//! only what hangs on what was changed in between; its [`Watch`] tells another thread how far it is, and stops it.
+
+pub use glam;
+pub use hecs::{self, Entity, World};
+
+pub use crate::components::{
+    CastsShadow, Classify, Clip, Color, Contour, DepthCue, Light, Material, Matte, Mesh, Name,
+    OpacityUnit, Order, PixelFilter, Polygon, Projects, Sampling, Shaft, Skip, Surface, TexelKind,
+    TextureFilter, Textured, Tissue, Toward, TransferPoint, View, Voxelize, Wrap,
+};
+pub use crate::error::Error;
+pub use crate::formats::pictures::write_picture;
+pub use crate::polygon::arrays::{polygon, triangles};
+pub use crate::polygon::face::Faces;
+pub use crate::renderer::{Rendered, Renderer};
+pub use crate::schedule::Watch;
+pub use crate::view::picture::Picture;
+pub use crate::volume::arrays::{painted_volume, volume};
+pub use crate::volume::grid::{Grid, Painted, Scalars};

@@ -1,0 +1,113 @@
+//! Textures that polygons name: pictures of entities, or formulas, laid where they are stated.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use hecs::{Entity, World};
+
+use super::carriers::{carriers, get};
+use super::fault::{Fault, Notice};
+use super::fill::{Became, fill, fill_from, withdraw};
+use crate::components::{self, Name, Polygon, Textured, Voxelize};
+use crate::phantom;
+use crate::polygon::texture::{Texture, TexturedBy};
+use crate::view::picture::Picture;
+
+/// What a texture on a polygon is made of: the statement, the texels of the entity that it names (else it names a
+/// formula), and three corners of the polygon.
+type Named = (Textured, Option<Texture>, Option<[[f64; 3]; 3]>);
+
+/// Gives every entity that states `textured` the texture itself.
+pub(super) fn fill_in(world: &mut World, notices: &mut Vec<Notice>) -> Result<(), Fault> {
+    let mut formulas = HashMap::new();
+    for entity in carriers::<TexturedBy>(world) {
+        if get::<Textured>(world, entity).is_none() {
+            withdraw::<Named, TexturedBy>(world, entity);
+        }
+    }
+    for entity in carriers::<Textured>(world) {
+        let Some(textured) = get::<Textured>(world, entity) else { continue };
+        let texels = match carrier(world, entity, "textured", &textured.texture)? {
+            Some(carrier) => texels(world, carrier, &textured)?,
+            None => None,
+        };
+        let corners = match get::<Polygon>(world, entity).map(|polygon| polygon.vertices) {
+            Some(vertices) if vertices.len() > 2 => {
+                Some([vertices[0], vertices[1], vertices[vertices.len() - 1]])
+            }
+            _ => None,
+        };
+        let named = (textured, texels, corners);
+        let made = fill(world, entity, named, |named| laid(entity, named, &mut formulas))?;
+        let voxelized = get::<Voxelize>(world, entity).is_some();
+        if voxelized && made == Became::Made {
+            let problem = "its texture is not shown, since `voxelize` draws it without the hybrid ray tracer; take one of the two away";
+            notices.push(Notice { entity, problem: problem.to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// The entity that a picture of that name is on; `None` for the name of a formula, and a fault of who names it for others.
+pub(super) fn carrier(
+    world: &World,
+    entity: Entity,
+    component: &'static str,
+    name: &str,
+) -> Result<Option<Entity>, Fault> {
+    let called = |entity: &Entity| world.get::<&Name>(*entity).is_ok_and(|n| n.0 == name);
+    if let Some(found) = carriers::<Picture>(world).into_iter().find(called) {
+        return Ok(Some(found));
+    }
+    let Err(problem) = phantom::is_texture(name) else { return Ok(None) };
+    let mut all = [carriers::<Picture>(world), carriers::<components::Texture>(world)].concat();
+    all.sort_unstable();
+    all.dedup();
+    let names: Vec<_> = all.into_iter().filter_map(|e| get::<Name>(world, e)).collect();
+    let names: Vec<_> = names.iter().map(|name| format!("`{}`", name.0)).collect();
+    let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+    let problem =
+        format!("no texture of the scene is called `{name}` (there are: {names}), and {problem}");
+    Err(Fault::of(entity, component, "texture", problem))
+}
+
+/// The texels of an entity's picture, averaged once for all that name it.
+fn texels(
+    world: &mut World,
+    carrier: Entity,
+    textured: &Textured,
+) -> Result<Option<Texture>, Fault> {
+    let Textured { wrap, filter, .. } = *textured;
+    fill_from(world, carrier, |picture: &Picture| Ok(Texture::new(picture, wrap, filter)))?;
+    Ok(get::<Texture>(world, carrier))
+}
+
+/// The texture of an entity, where it lies. A formula is made once for all that name it.
+fn laid(
+    entity: Entity,
+    (textured, texels, corners): &Named,
+    formulas: &mut HashMap<String, Texture>,
+) -> Result<TexturedBy, Fault> {
+    let Textured { wrap, filter, texture: name, .. } = textured;
+    let texture = match (texels, formulas.get(name)) {
+        (Some(texels), _) | (None, Some(texels)) => texels.with(*wrap, *filter),
+        (None, None) => {
+            let missing = |problem| Fault::of(entity, "textured", "texture", problem);
+            let picture = phantom::texture(name).map_err(missing)?;
+            let texture = Texture::new(&picture, *wrap, *filter);
+            formulas.insert(name.clone(), texture.clone());
+            texture
+        }
+    };
+    let Some(corners) = textured.corners.or(*corners) else {
+        let problem = "a mesh says nothing about where its texture lies; state `corners`";
+        return Err(Fault::of(entity, "textured", "", problem));
+    };
+    let corners = corners.map(DVec3::from);
+    let (across, down) = (corners[1] - corners[0], corners[2] - corners[0]);
+    if across.cross(down).length() <= 1e-12 * across.length() * down.length() {
+        let problem = "the corners of its texture lie on one line; state three that span it";
+        return Err(Fault::of(entity, "textured", "corners", problem));
+    }
+    Ok(TexturedBy { textured: textured.clone(), texture, corners })
+}

@@ -1,0 +1,75 @@
+//! The view: the default one where none is stated, its sampling, and the extent of what it can see.
+
+use hecs::{Entity, World};
+
+use super::carriers::{carriers, get};
+use super::fault::Fault;
+use super::fill::fill;
+use super::lights::falloff;
+use super::order::spawn;
+use crate::components::{DepthCue, Sampling, View};
+use crate::polygon::face::Faces;
+use crate::view::extent::Extent;
+use crate::volume::grid::Grid;
+use crate::volume::scene_volumes::visible;
+
+/// On the view that was added because none was stated; it goes when one is.
+struct DefaultView;
+
+/// The bounding box of the domains of all volumes and of all polygons; the error is that there is neither.
+pub(super) fn extent(world: &World) -> Result<Extent, Fault> {
+    let (mut grids, mut faces) = (world.query::<&Grid>(), world.query::<&Faces>());
+    let corners = grids.iter().flat_map(Grid::corners);
+    let outlines = faces.iter().flat_map(|faces| faces.0.iter().flat_map(|face| &face.outlines));
+    match Extent::of(corners.chain(outlines.flatten().copied())) {
+        Some(extent) if extent.radius().is_finite() => Ok(extent),
+        Some(_) => Err(Fault::of_all(
+            "its coordinates are too far apart to be computed with; state smaller ones",
+        )),
+        None => Err(Fault::of_all(
+            "there is nothing to see; state an entity with a `volume`, a `polygon` or a `mesh`",
+        )),
+    }
+}
+
+/// Gives every view its sampling and the extent of the scene, and a world without a view the default one.
+pub(super) fn fill_in(world: &mut World, extent: Extent) -> Result<(), Fault> {
+    let default = carriers::<DefaultView>(world);
+    let views = carriers::<View>(world);
+    if views.is_empty() {
+        spawn(world, "observer", (View::default(), DefaultView));
+    }
+    for view in default.into_iter().filter(|_| views.len() > 1) {
+        let _ = world.despawn(view);
+    }
+    for view in carriers::<View>(world) {
+        if let Some(DepthCue { k1, k2 }) = get(world, view) {
+            falloff(k1, k2, extent).map_err(|p| Fault::of(view, "depth_cue", "k2", p))?;
+        }
+        fill(world, view, (), |()| Ok(Sampling::default()))?;
+        fill(world, view, extent, |extent| Ok(*extent))?;
+        check_distance(world, view, extent)?;
+    }
+    Ok(())
+}
+
+/// The most samples that a ray may have before it is refused as a slip: a thousand for each voxel of a thousand in a row.
+const MOST_SAMPLES: f64 = (1 << 20) as f64;
+
+/// Refuses a sample distance at which a ray has more than [`MOST_SAMPLES`].
+fn check_distance(world: &World, view: Entity, extent: Extent) -> Result<(), Fault> {
+    let volumes = visible(world);
+    let smallest =
+        volumes.iter().map(|v| v.grid.spacing().min_element()).fold(f64::INFINITY, f64::min);
+    let stated = get::<Sampling>(world, view).and_then(|sampling| sampling.distance_mm);
+    let samples = extent.samples(stated.unwrap_or(smallest));
+    if volumes.is_empty() || samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let most = MOST_SAMPLES;
+    let least = 2.0 * extent.radius() / most;
+    let problem = format!(
+        "samples so near would be {samples:.0} along a ray through the scene, and {most} are the most; state a `distance_mm` of at least {least:.3e} or leave it away"
+    );
+    Err(Fault::of(view, "sampling", "distance_mm", problem))
+}
