@@ -4,7 +4,6 @@
 //! ```
 //! use gelray::prelude::*;
 //!
-//! # fn main() -> Result<(), Error> {
 //! // 32³ numbers, the last axis fastest: densest in the middle, 0 at a distance of 15 world units.
 //! let squares = |i: usize| [i / 1024, i / 32 % 32, i % 32].map(|n| (n as f32 - 15.5).powi(2));
 //! let density = |i: usize| 15.0 - squares(i).iter().sum::<f32>().sqrt();
@@ -19,8 +18,7 @@
 //! world.spawn((Light::from_direction([-0.4, -0.8, 0.5]),));
 //! let picture = Renderer::new()?.render(&mut world)?.picture;
 //! assert!(picture.pixel(190, 190)[3] > 0.9);
-//! # Ok(())
-//! # }
+//! # Ok::<(), Error>(())
 //! ```
 //!
 //! [`prelude`] lists what entities may carry. The rest of this page is the architecture; paper sections are §, figures by
