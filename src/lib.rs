@@ -77,7 +77,7 @@
 //! | `shade` | c_i, one for each shadowed light and one for all others | [`shading`] |
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
-//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `relit`; [`painting`] for RGBA volumes |
+//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `lit_layer`; [`painting`] for RGBA volumes |
 //! | `pyramid` | which cells are interesting, level by level (§6) | [`pyramid`] |
 //!
 //! # The walk of a ray

@@ -10,6 +10,8 @@ mod interrupted;
 mod limits;
 #[path = "program/misuse.rs"]
 mod misuse;
+#[path = "program/planned.rs"]
+mod planned;
 #[path = "program/render.rs"]
 mod render;
 #[path = "program/sentences.rs"]

@@ -22,7 +22,7 @@ pub use light::{CastsShadow, Light, Observer, Shaft, Toward};
 pub use material::{DepthCue, Material};
 pub use mesh::{Ellipsoid, Mesh, Prism};
 pub use polygon::{Matte, Polygon, Surface, Voxelize};
-pub use sampling::{Filter, PixelFilter, Sampling, Skip, TexelKind};
+pub use sampling::{PixelFilter, Sampling, Skip, TexelKind};
 pub use texture::{Projects, Texture, TextureFilter, Textured, Wrap};
 pub use view::View;
 pub use volume::{OpacityUnit, Volume};

@@ -32,8 +32,6 @@ pub struct Sampling {
     pub outlines: bool,
     /// In which numbers the gel is kept.
     pub texel: TexelKind,
-    /// How the volume is resampled between voxels.
-    pub filter: Filter,
     /// What a pixel is of the positions around it.
     pub pixel_filter: PixelFilter,
 }
@@ -50,7 +48,6 @@ impl Default for Sampling {
             finest: 1,
             outlines: true,
             texel: TexelKind::Auto,
-            filter: Filter::Linear,
             pixel_filter: PixelFilter::Box,
         }
     }
@@ -97,14 +94,6 @@ pub enum TexelKind {
     U16,
     /// 8-bit fixed point, error 2⁻⁹ a channel: 4 bytes a voxel.
     U8,
-}
-
-/// How the volume is resampled between voxels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Filter {
-    /// Tri-linear interpolation of associated colour and opacity, as in the paper.
-    Linear,
 }
 
 /// How the positions around a pixel become its colour.

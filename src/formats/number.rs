@@ -148,7 +148,7 @@ pub(super) fn to_native<T: Stored>(values: &mut [T], order: Order) {
 }
 
 /// Where numbers come from: the bytes of a file, or its words.
-pub(super) trait Source {
+pub(super) trait NumberSource {
     /// `count` elements `E`, each of one or more numbers `T`.
     fn array<E: Pod, T: Stored>(&mut self, count: usize) -> Result<Vec<E>, String>;
 }
@@ -161,7 +161,7 @@ pub(super) struct Binary<'a> {
     pub(super) order: Order,
 }
 
-impl Source for Binary<'_> {
+impl NumberSource for Binary<'_> {
     fn array<E: Pod, T: Stored>(&mut self, count: usize) -> Result<Vec<E>, String> {
         let mut elements = self.stream.array::<E>(count)?;
         to_native(bytemuck::cast_slice_mut::<E, T>(&mut elements), self.order);
@@ -171,11 +171,11 @@ impl Source for Binary<'_> {
 
 /// One number a voxel, kept in its own type.
 pub(super) fn scalars(
-    source: &mut impl Source,
+    source: &mut impl NumberSource,
     kind: NumberType,
     count: usize,
 ) -> Result<Scalars, String> {
-    fn of<T: Stored>(source: &mut impl Source, count: usize) -> Result<Scalars, String> {
+    fn of<T: Stored>(source: &mut impl NumberSource, count: usize) -> Result<Scalars, String> {
         source.array::<T, T>(count).map(T::scalars)
     }
     match kind {
@@ -194,7 +194,7 @@ pub(super) fn scalars(
 
 /// Four numbers a voxel, RGBA with straight alpha.
 pub(super) fn painted(
-    source: &mut impl Source,
+    source: &mut impl NumberSource,
     kind: NumberType,
     count: usize,
 ) -> Result<Voxels, String> {

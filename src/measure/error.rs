@@ -76,15 +76,6 @@ pub fn compare(a: &Picture, b: &Picture) -> Result<Difference, String> {
     })
 }
 
-/// The map of [`Difference::worst`] alone; the error is that of [`compare`].
-pub fn difference_map(a: &Picture, b: &Picture) -> Result<Picture, String> {
-    same_size(a, b)?;
-    let pairs: Vec<Option<Pair>> =
-        a.pixels.par_iter().zip(b.pixels.par_iter()).map(finite).collect();
-    let most = pairs.iter().flatten().map(|pair| worst_channel(*pair)).fold(0.0, f64::max);
-    map(&pairs, a.size, most)
-}
-
 /// A pixel of the first picture and the same of the second, both finite.
 type Pair = [[f32; 4]; 2];
 
@@ -223,7 +214,6 @@ mod tests {
         assert_eq!(found.worst_at, [4, 5]);
         assert_eq!(found.worst.pixel(4, 5), [1.0; 4]);
         assert!((found.worst.pixel(9, 6)[0] - 0.5).abs() < 1e-6);
-        assert_eq!(difference_map(&of(waves), &other).unwrap().pixels[..], found.worst.pixels[..]);
     }
 
     #[test]
@@ -249,7 +239,6 @@ mod tests {
                 .unwrap_err()
                 .contains("1 × 1 pixels and the second 37 × 23")
         );
-        assert!(difference_map(&small, &of(waves)).is_err());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use hecs::World;
 
 use super::error::Text;
 use super::loading::{Folders, Loading};
-use super::parse::{Stated, parse};
+use super::parse::{ParsedScene, parse};
 use super::source::Source;
 use super::{overrides, textures, volume};
 use crate::components::Sampling;
@@ -74,7 +74,7 @@ fn read<'t>(
     exact: bool,
     most_bytes: Option<u64>,
 ) -> Result<Loading<'t>, Error> {
-    let Stated { text, world, entries } = parse(text)?;
+    let ParsedScene { text, world, entries } = parse(text)?;
     let folders = Folders { scene: source.folder(), data: data.to_vec() };
     let mut loading = Loading {
         text,

@@ -16,7 +16,7 @@ use crate::components::{Name, Order};
 use crate::error::SceneError;
 
 /// A scene as stated: entities with their components, and where in the text each was stated.
-pub(super) struct Stated<'t> {
+pub(super) struct ParsedScene<'t> {
     pub text: Text<'t>,
     pub world: World,
     pub entries: Vec<Entry<'t>>,
@@ -45,7 +45,7 @@ impl Entry<'_> {
 }
 
 /// Reads a scene's text.
-pub(super) fn parse(text: Text) -> Result<Stated, SceneError> {
+pub(super) fn parse(text: Text) -> Result<ParsedScene, SceneError> {
     let root = root(text)?;
     read(text, &root).map_err(|fault| fault.within(text))
 }
@@ -60,8 +60,8 @@ pub(super) fn root(text: Text<'_>) -> Result<DeTable<'_>, SceneError> {
     Ok(table.into_inner())
 }
 
-fn read<'t>(text: Text<'t>, root: &DeTable<'t>) -> Result<Stated<'t>, Fault> {
-    let mut stated = Stated { text, world: World::new(), entries: Vec::new() };
+fn read<'t>(text: Text<'t>, root: &DeTable<'t>) -> Result<ParsedScene<'t>, Fault> {
+    let mut stated = ParsedScene { text, world: World::new(), entries: Vec::new() };
     let tables = tables(root)?;
     for (order, (table, name)) in tables.iter().zip(names(&tables)).enumerate() {
         let (inner, noun) = checked(table, &name)?;
@@ -111,7 +111,7 @@ pub(super) fn entity_names(root: &DeTable) -> Vec<String> {
 }
 
 /// Names are unique, and there is one view at the most.
-fn once(stated: &Stated) -> Result<(), Fault> {
+fn once(stated: &ParsedScene) -> Result<(), Fault> {
     let mut called = HashSet::new();
     let mut first: HashMap<&str, &Entry> = HashMap::new();
     for entry in &stated.entries {

@@ -3,7 +3,7 @@
 use super::*;
 
 #[derive(Clone, PartialEq, Debug)]
-struct Stated(u32);
+struct Given(u32);
 
 #[derive(Clone, PartialEq, Debug)]
 struct Doubled(u32);
@@ -18,7 +18,7 @@ impl System for Double {
     const READS: &'static [ProductKey] = &[];
 
     fn run(world: &World, out: &mut Outbox<'_, Doubled>) -> Result<(), Error> {
-        for (entity, stated) in &mut world.query::<(Entity, &Stated)>() {
+        for (entity, stated) in &mut world.query::<(Entity, &Given)>() {
             out.derive(entity, stated.clone(), |stated| Ok(Doubled(stated.0 * 2)))?;
         }
         Ok(())
@@ -92,7 +92,7 @@ impl System for Twice {
 fn a_system_that_derives_an_entity_twice_is_refused() {
     let schedule = Schedule::new(&[Job::of::<Twice>()]).unwrap();
     let mut world = World::new();
-    world.spawn((Stated(4),));
+    world.spawn((Given(4),));
     let refused = schedule.run(&mut world, &Watch::default()).unwrap_err();
     assert!(refused.to_string().contains("Doubled of one entity twice"), "{refused}");
 }
@@ -101,7 +101,7 @@ fn a_system_that_derives_an_entity_twice_is_refused() {
 fn a_product_that_is_not_there_is_made_anew_and_one_that_was_put_back_is_kept() {
     let schedule = Schedule::new(&[Job::of::<Double>()]).unwrap();
     let (mut world, watch) = (World::new(), Watch::default());
-    world.spawn((Stated(4),));
+    world.spawn((Given(4),));
     schedule.run(&mut world, &watch).unwrap();
     let restore = ProductKey::of::<Doubled>().hide(&mut world);
     assert!(world.query::<&Doubled>().iter().next().is_none());
@@ -115,17 +115,17 @@ fn a_product_that_is_not_there_is_made_anew_and_one_that_was_put_back_is_kept() 
 fn equal_inputs_are_reused_changed_ones_made_and_what_is_not_asked_for_is_taken_off() {
     let schedule = Schedule::new(&[Job::of::<Double>()]).unwrap();
     let (mut world, watch) = (World::new(), Watch::default());
-    let entity = world.spawn((Stated(4),));
+    let entity = world.spawn((Given(4),));
     let did = |world: &mut World| {
         let ran = &schedule.run(world, &watch).unwrap()[0];
         (ran.made, ran.reused)
     };
     assert_eq!(did(&mut world), (1, 0));
     assert_eq!(did(&mut world), (0, 1));
-    world.insert_one(entity, Stated(5)).unwrap();
+    world.insert_one(entity, Given(5)).unwrap();
     assert_eq!(did(&mut world), (1, 0));
     assert_eq!(*world.get::<&Doubled>(entity).unwrap(), Doubled(10));
-    world.remove_one::<Stated>(entity).unwrap();
+    world.remove_one::<Given>(entity).unwrap();
     assert_eq!(did(&mut world), (0, 0));
     assert!(world.get::<&Doubled>(entity).is_err());
 }

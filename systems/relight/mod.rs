@@ -1,6 +1,6 @@
 //! `relight`: equation 4, `c_T = Σ c_i β_i`, and the associated gel `c_T · α` that rays meet.
 
-mod relit;
+mod lit_layer;
 
 use glam::Vec4;
 use hecs::{Entity, World};
@@ -19,7 +19,7 @@ use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
 use crate::volume::scene_volumes::{Content, SceneVolume, visible};
 
-use relit::Relit;
+use lit_layer::LitLayer;
 
 /// Makes the [`Gel`] of every volume.
 pub struct Relight;
@@ -143,11 +143,11 @@ impl Inputs {
                 let shadowed = colors.shadowed.iter().enumerate();
                 let strength = |i: usize| self.strengths.get(i).and_then(Option::as_ref);
                 let shadowed = shadowed.map(|(i, colors)| (colors, strength(i))).collect();
-                let lit = Relit { opacity, base: &colors.base, shadowed }.gel(self.texel);
+                let lit = LitLayer { opacity, base: &colors.base, shadowed }.gel(self.texel);
                 // Both parts in the same numbers.
                 let texel = lit.kind();
                 let ambient = colors.ambient.as_ref().map(|ambient| {
-                    Relit { opacity, base: ambient, shadowed: Vec::new() }.gel(texel)
+                    LitLayer { opacity, base: ambient, shadowed: Vec::new() }.gel(texel)
                 });
                 Ok(Gel { lit, ambient })
             }

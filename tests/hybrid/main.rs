@@ -1,6 +1,8 @@
 //! Facts about the hybrid ray tracer (paper §2 and §6): closed forms, what is lossless, what is thrifty, what is watertight.
 
 mod adaptive;
+mod ball;
+mod beside;
 mod closed_forms;
 mod colors;
 mod convergence;

@@ -82,7 +82,7 @@ fn voxels(
 }
 
 fn decoded(
-    source: &mut impl number::Source,
+    source: &mut impl number::NumberSource,
     header: &Header,
     numbers: usize,
 ) -> Result<Voxels, String> {

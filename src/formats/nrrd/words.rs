@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 
-use super::super::number::{Source, Stored};
+use super::super::number::{NumberSource, Stored};
 use super::super::stream::{Stream, room};
 
 /// Letters that a number may have: the smallest double, written out, has 327.
@@ -66,7 +66,7 @@ impl<'a> Words<'a> {
     }
 }
 
-impl Source for Words<'_> {
+impl NumberSource for Words<'_> {
     fn array<E: Pod, T: Stored>(&mut self, count: usize) -> Result<Vec<E>, String> {
         let each = size_of::<E>() / size_of::<T>();
         // A number and a separator are two bytes; the last needs no separator.

@@ -40,11 +40,11 @@ pub struct Slide {
     size: [f64; 2],
     wrap: Wrap,
     /// The texture's luminance, and each time half as many texels across and down.
-    levels: Vec<Level>,
+    levels: Vec<SlideLevel>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Level {
+struct SlideLevel {
     size: [usize; 2],
     light: Shared<f32>,
 }
@@ -67,8 +67,8 @@ impl Slide {
             return Err("`projects` states a `center` or `up` that is not finite".to_owned());
         }
         let light = Shared::new(picture.pixels.iter().map(luminance).collect());
-        let mut levels = vec![Level { size: picture.size, light }];
-        while let Some(coarser) = levels.last().and_then(Level::halved) {
+        let mut levels = vec![SlideLevel { size: picture.size, light }];
+        while let Some(coarser) = levels.last().and_then(SlideLevel::halved) {
             levels.push(coarser);
         }
         Ok(Self { center, right: up.cross(toward), up, size, wrap: projects.wrap, levels })
@@ -87,7 +87,7 @@ impl Slide {
         }
         let texels = (0..2).map(|a| share[a].abs() * self.levels[0].size[a] as f64);
         let texels = texels.fold(f64::INFINITY, f64::min);
-        let coarse = |level: &&Level| {
+        let coarse = |level: &&SlideLevel| {
             let reduced = self.levels[0].size[0] as f64 / level.size[0] as f64;
             texels / reduced >= FINE
         };
@@ -135,7 +135,7 @@ fn luminance(&[r, g, b, _]: &[f32; 4]) -> f32 {
     if luminance > 0.0 { luminance.min(BRIGHTEST) } else { 0.0 }
 }
 
-impl Level {
+impl SlideLevel {
     /// Half as many texels each way, rounded up; `None` for a single texel.
     fn halved(&self) -> Option<Self> {
         if self.size == [1, 1] {

@@ -9,12 +9,12 @@ use std::ops::Range;
 use glam::{DMat2, DVec2, DVec4, Vec4};
 
 use super::footprint::{Footprint, MOST_TEXELS, widened};
-use super::mip::{Level, wrapped};
+use super::mip::{MipLevel, wrapped};
 use crate::components::Wrap;
 
 /// The mean over the footprint, at least a texel wide, in the finest level where it covers not too many texels.
-pub(super) fn average(levels: &[Level], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
-    let fits = |level: &&Level| {
+pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
+    let fits = |level: &&MipLevel| {
         let sides = footprint.in_texels(level.size);
         let reach = sides.x_axis.abs() + sides.y_axis.abs();
         let met = sides.determinant().abs() + reach.x + reach.y;
@@ -28,7 +28,7 @@ pub(super) fn average(levels: &[Level], wrap: Wrap, uv: DVec2, footprint: &Footp
 }
 
 /// The mean over the parallelogram with the columns of `sides`, in texels, about `uv`.
-fn mean(level: &Level, wrap: Wrap, uv: DVec2, sides: DMat2) -> Vec4 {
+fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, sides: DMat2) -> Vec4 {
     let size = DVec2::new(level.size[0] as f64, level.size[1] as f64);
     let (p, q) = (sides.x_axis / 2.0, sides.y_axis / 2.0);
     let reach = p.abs() + q.abs();

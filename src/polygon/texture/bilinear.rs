@@ -3,17 +3,17 @@
 use glam::{DVec2, Vec4};
 
 use super::footprint::{Footprint, longest};
-use super::mip::Level;
+use super::mip::MipLevel;
 use crate::components::Wrap;
 
 /// The texel that `uv` lies in.
-pub(super) fn nearest(level: &Level, wrap: Wrap, uv: DVec2) -> Vec4 {
+pub(super) fn nearest(level: &MipLevel, wrap: Wrap, uv: DVec2) -> Vec4 {
     let at = (uv * size(level)).floor();
     level.texel(at.x as i64, at.y as i64, wrap).unwrap_or(Vec4::ZERO)
 }
 
 /// The bilinear interpolation of the texels whose centres are around `uv`; what has vanished counts as nothing.
-pub(super) fn bilinear(level: &Level, wrap: Wrap, uv: DVec2) -> Vec4 {
+pub(super) fn bilinear(level: &MipLevel, wrap: Wrap, uv: DVec2) -> Vec4 {
     let at = uv * size(level) - 0.5;
     let (first, part) = (at.floor(), (at - at.floor()).as_vec2());
     let (x, y) = (first.x as i64, first.y as i64);
@@ -24,7 +24,7 @@ pub(super) fn bilinear(level: &Level, wrap: Wrap, uv: DVec2) -> Vec4 {
 }
 
 /// Bilinear in the two levels whose texels are as long as the footprint's longer axis, just below and just above.
-pub(super) fn trilinear(levels: &[Level], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
+pub(super) fn trilinear(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
     let long = longest(footprint.in_texels(levels[0].size)).max(1.0);
     let number = libm::log2(long).min((levels.len() - 1) as f64);
     let (fine, part) = (number.floor() as usize, (number - number.floor()) as f32);
@@ -41,6 +41,6 @@ fn between(a: Vec4, b: Vec4, part: f32) -> Vec4 {
 }
 
 /// Texels across and down.
-fn size(level: &Level) -> DVec2 {
+fn size(level: &MipLevel) -> DVec2 {
     DVec2::new(level.size[0] as f64, level.size[1] as f64)
 }

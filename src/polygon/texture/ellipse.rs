@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat2, DVec2, DVec3, DVec4, Vec4};
 
 use super::footprint::{Footprint, MOST_TEXELS, widened};
-use super::mip::{Level, wrapped};
+use super::mip::{MipLevel, wrapped};
 use crate::components::Wrap;
 
 /// Variance of a square of side 1 along each axis: that of the pixel carried to the texture, and that of a texel.
@@ -42,9 +42,9 @@ impl Gaussian {
 }
 
 /// The mean weighed by the Gaussian, in the finest level where it covers not too many texels.
-pub(super) fn average(levels: &[Level], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
-    let gaussian = |level: &Level| Gaussian::new(widened(footprint.in_texels(level.size)));
-    let fits = |level: &&Level| gaussian(level).texels() <= MOST_TEXELS;
+pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
+    let gaussian = |level: &MipLevel| Gaussian::new(widened(footprint.in_texels(level.size)));
+    let fits = |level: &&MipLevel| gaussian(level).texels() <= MOST_TEXELS;
     if let Some(level) = levels.iter().find(fits) {
         return mean(level, wrap, uv, gaussian(level));
     }
@@ -62,7 +62,7 @@ fn density(g: Gaussian, from: DVec2) -> f64 {
 }
 
 /// The mean of a level's texels, each weighed by the Gaussian at its centre.
-fn mean(level: &Level, wrap: Wrap, uv: DVec2, g: Gaussian) -> Vec4 {
+fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, g: Gaussian) -> Vec4 {
     let at = uv * DVec2::new(level.size[0] as f64, level.size[1] as f64) - 0.5;
     let reach = (CUT * g.variance.z).sqrt();
     let (mut sum, mut total) = (DVec4::ZERO, 0.0);

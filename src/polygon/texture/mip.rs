@@ -7,7 +7,7 @@ use crate::view::picture::Picture;
 
 /// One level of a texture: square texels, row 0 at the top, x fastest; at least one texel.
 #[derive(Debug, Clone)]
-pub(super) struct Level {
+pub(super) struct MipLevel {
     /// Texels across and down.
     pub size: [usize; 2],
     /// Linear, associated RGBA.
@@ -15,12 +15,12 @@ pub(super) struct Level {
 }
 
 /// The texels of a picture, then levels of half the size each, rounded up, until a single texel is left.
-pub(super) fn levels(picture: &Picture) -> Vec<Level> {
+pub(super) fn levels(picture: &Picture) -> Vec<MipLevel> {
     let texels: Vec<_> = picture.pixels.iter().copied().map(sound).collect();
     let mut levels = vec![if texels.is_empty() {
-        Level { size: [1, 1], texels: vec![Vec4::ZERO] }
+        MipLevel { size: [1, 1], texels: vec![Vec4::ZERO] }
     } else {
-        Level { size: picture.size, texels }
+        MipLevel { size: picture.size, texels }
     }];
     while let Some(last) = levels.last().filter(|level| level.size != [1, 1]) {
         let next = last.coarser();
@@ -35,7 +35,7 @@ fn sound(texel: [f32; 4]) -> Vec4 {
     Vec4::new(r, g, b, a.clamp(0.0, 1.0))
 }
 
-impl Level {
+impl MipLevel {
     /// Half as many texels along each axis, rounded up; each the mean over the area that it covers.
     fn coarser(&self) -> Self {
         let size = self.size.map(|n| n.div_ceil(2));
@@ -95,7 +95,7 @@ mod tests {
         Picture::new(size, pixels.collect()).unwrap()
     }
 
-    fn mean(level: &Level) -> DVec4 {
+    fn mean(level: &MipLevel) -> DVec4 {
         level.texels.iter().map(|t| t.as_dvec4()).sum::<DVec4>() / level.texels.len() as f64
     }
 

@@ -20,12 +20,12 @@ mod mip;
 
 pub use footprint::Footprint;
 pub use mapping::Mapping;
-use mip::Level;
+use mip::MipLevel;
 
 /// A texture ready for lookups: linear, associated RGBA and its coarser levels, shared by pointer.
 #[derive(Debug, Clone)]
 pub struct Texture {
-    levels: Arc<[Level]>,
+    levels: Arc<[MipLevel]>,
     wrap: Wrap,
     filter: TextureFilter,
 }

@@ -13,7 +13,7 @@ const FAINT: f32 = 1.0 / 16.0;
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
-pub struct Relit<'a> {
+pub struct LitLayer<'a> {
     /// α.
     pub opacity: &'a Bricks<f32>,
     /// What no shadow weakens.
@@ -22,7 +22,7 @@ pub struct Relit<'a> {
     pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
 }
 
-impl Relit<'_> {
+impl LitLayer<'_> {
     /// The associated gel: `c_T · α` and α. `Auto` is decided by what there is.
     #[must_use]
     pub fn gel(&self, kind: TexelKind) -> GelBricks {
@@ -149,7 +149,7 @@ mod tests {
                 brick.fill([light, 0.5, 0.0]);
                 true
             });
-            Relit { opacity: &opacity, base: &base, shadowed: Vec::new() }.suited()
+            LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new() }.suited()
         };
         assert_eq!(kind(0.5, 1.0), TexelKind::U16);
         assert_eq!([kind(0.05, 1.0), kind(0.5, 1.5)], [TexelKind::F32; 2]);
@@ -163,7 +163,7 @@ mod tests {
         let half = opacity.map(|_, _, made| made.fill(32768));
         let strength = VoxelStrength { voxels: half, full: 0.5 };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
-        let gel = Relit { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
+        let gel = LitLayer { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
         let beta = 32768.0 / 65535.0 * 0.5;
         for (x, y, z) in (0..3400).map(|i| (i % 20, i / 20 % 17, i / 340)) {
             let alpha = alpha([x, y, z]);
@@ -177,14 +177,14 @@ mod tests {
     fn a_brick_is_held_exactly_if_one_of_its_nine_cubed_voxels_is_interesting() {
         let opacity = opacity();
         let base = colors(&opacity, [1.0; 3]);
-        let relit = Relit { opacity: &opacity, base: &base, shadowed: Vec::new() };
+        let lit_layer = LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new() };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {
                 let voxel: [usize; 3] = std::array::from_fn(|a| brick[a] * CELLS + step[a]);
                 (0..3).all(|a| voxel[a] < SIZE[a]) && alpha(voxel) > 0.0
             });
-            assert_eq!(relit.holds(brick), expected, "{brick:?}");
+            assert_eq!(lit_layer.holds(brick), expected, "{brick:?}");
             held += usize::from(expected);
         }
         assert!((1..18).contains(&held));
