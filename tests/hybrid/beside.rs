@@ -137,7 +137,7 @@ fn a_turned_grid_shows_what_a_straight_one_of_the_same_field_shows_to_second_ord
         };
         worst(&picture(straight), &picture(turned))
     });
-    println!("turned against straight: off by {errors:.2?} at voxels of 1 and 1/2");
+    println!("turned against straight: off by {errors:.5?} at voxels of 1 and 1/2");
     assert!(errors[0] / errors[1] > 3.0 && errors[1] < 4e-3, "{errors:?}");
 }
 

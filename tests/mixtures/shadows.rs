@@ -83,11 +83,15 @@ fn a_polygon_casts_no_shadow_on_itself_at_the_default_bias() {
                 let least = lit.into_iter().fold(f64::INFINITY, f64::min);
                 let name = if method.is_empty() { "hybrid" } else { "scan-converted" };
                 println!("{name:<15} {opacity:<8} {degrees:<8} {least:.3}");
-                // Voxels get the strength of a point a bias nearer along the light, which aslant is still in the layer.
+                // Voxels get the strength of a point a bias nearer along the light: aslant it is still in the layer, whose
+                // half thickness the bias then clears by its cosine alone.
                 let expected = match (method, degrees) {
-                    ("", _) => 0.995,
-                    (_, ..46.0) => 0.85,
-                    _ => 0.3,
+                    ("", _) => 0.9995,
+                    (_, ..1.0) => 0.96,
+                    (_, ..31.0) => 0.93,
+                    (_, ..46.0) => 0.88,
+                    (_, ..61.0) => 0.71,
+                    _ => 0.38,
                 };
                 assert!(least > expected, "{name} {opacity} {degrees}: {least}");
             }
@@ -95,10 +99,30 @@ fn a_polygon_casts_no_shadow_on_itself_at_the_default_bias() {
     }
 }
 
+#[test]
+fn a_scan_converted_polygon_casts_no_shadow_on_itself_where_the_bias_clears_its_layer() {
+    println!("degrees  bias in voxels  least lit part over phases between voxels");
+    for degrees in [0.0_f64, 30.0, 45.0, 60.0, 75.0] {
+        // The layer is as thick aslant as its part along the light.
+        let bias = 4.0 / degrees.to_radians().cos();
+        let shadow = format!("casts_shadow = {{ bias_voxels = {bias} }}");
+        let lit = [0.0, 0.25, 0.5, 0.75]
+            .map(|phase| lit_alone_under(phase, &keys(1.0, VOXELIZE), degrees, &shadow));
+        let least = lit.into_iter().fold(f64::INFINITY, f64::min);
+        println!("{degrees:<8} {bias:<15.2} {least:.4}");
+        assert!(least > 0.995, "{degrees}: {least}");
+    }
+}
+
 /// The part of the light from so many degrees aslant that falls on a level polygon alone, at the middle.
 fn lit_alone(z: f64, keys: &str, degrees: f64) -> f64 {
+    lit_alone_under(z, keys, degrees, "casts_shadow = {}")
+}
+
+fn lit_alone_under(z: f64, keys: &str, degrees: f64, shadow: &str) -> f64 {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let light = KEY.replace("[0, 0, 1]", &format!("[{sin}, 0, {cos}]"));
+    let light = light.replace("casts_shadow = {}", shadow);
     let floor = level("floor", z, 28.0, keys);
     let world = made(&[&nothing(), &floor, &light, &view(0.0, 90.0, 32, 64.0, EVERY_PIXEL)]);
     let [red, _, _, alpha] = at(&world, [0.0; 3]);
