@@ -175,10 +175,7 @@ fn peak_memory() -> f64 {
 fn tell_peak_memory() {
     let source = Source::embedded("figure_06a").expect("figure 6a is embedded");
     open(&source).run();
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
-    println!("{}", kibibytes.map_or(f64::NAN, |kibibytes| kibibytes * 1024.0 / 1e6));
+    println!("{}", timed::peak_megabytes());
 }
 
 /// Figure 6b: what scan-conversion takes, and what a frame takes beside figure 6a.
@@ -219,7 +216,7 @@ fn shadows() {
             take_off::<CastsShadow>(&mut setting);
         }
         let colors =
-            ["gradient", "classify", "shade", "scan_convert", "matte", "light_sweep", "relight"];
+            ["ranges", "classify", "shade", "scan_convert", "matte", "light_sweep", "relight"];
         seconds(&setting.run().0, |stage| colors.contains(&stage))
     };
     let repeat = if is_quick() { 2 } else { 5 };

@@ -11,8 +11,9 @@ use gelray::schedule::{Made, Product, Schedule, Watch};
 use gelray::systems::JOBS;
 use gelray::view::composite::thicken;
 use gelray::volume::gel::{CELLS, GelBricks};
-use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::layer::{LitColors, Opacity};
 use gelray::volume::pyramid::Pyramid;
+use gelray::volume::ranges::Ranges;
 use gelray::with_texels;
 use glam::{Vec3, Vec4};
 use hecs::{Entity, World};
@@ -101,8 +102,8 @@ fn stage<P: Product>(bencher: Bencher, stage: &str) {
 }
 
 #[divan::bench]
-fn gradient(bencher: Bencher) {
-    stage::<Gradient>(bencher, "gradient");
+fn ranges(bencher: Bencher) {
+    stage::<Ranges>(bencher, "ranges");
 }
 
 #[divan::bench]

@@ -68,6 +68,14 @@ pub fn on_threads<R: Send>(threads: usize, act: impl FnOnce() -> R + Send) -> R 
     pool.expect("threads can be started").install(act)
 }
 
+/// The most memory in MB that this program took until now; NaN where the system tells none.
+pub fn peak_megabytes() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+    kibibytes.map_or(f64::NAN, |kibibytes| kibibytes * 1024.0 / 1e6)
+}
+
 /// The middle one of some numbers, the least and the greatest; NaN of none.
 #[derive(Clone, Copy)]
 pub struct Spread {

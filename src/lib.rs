@@ -54,7 +54,7 @@
 //! | `shared` | arrays made once and compared by identity |
 //! | `schedule` | systems, their products and their order |
 //! | `components` | what a scene states |
-//! | `volume` | grids, bricks, gel, pyramid, classification, clips, painted voxels |
+//! | `volume` | grids, ranges, gradients, bricks, gel, pyramid, classification, clips, painted voxels |
 //! | `view` | the camera, the walk of a ray, samples, compositing, the picture |
 //! | `polygon` | faces, textures, what a polygon covers of voxels |
 //! | `light` | shading, and how strong a light still is |
@@ -72,9 +72,9 @@
 //! | stage | makes | by way of |
 //! |---|---|---|
 //! | `scene`, `formats` | [`grid::Scalars`] in the file's own number type, [`grid::Grid`] | a file, or a [`phantom`] made by formula |
-//! | `gradient` | ∇f, central differences in world units | dense, the only dense array made of voxels |
-//! | `classify` | α_V, in [`bricks`] stored only where something is interesting | [`classification`], [`clipping`] |
-//! | `shade` | c_i, one for each shadowed light and one for all others | [`shading`] |
+//! | `ranges` | between which scalars each brick lies, once a volume | [`ranges`] |
+//! | `classify` | α_V, in [`bricks`] stored only where something is interesting; no others are looked at that [`ranges`] rules out | [`gradients`], [`classification`], [`clipping`] |
+//! | `shade` | c_i, one for each shadowed light and one for all others | [`gradients`] again, [`shading`] |
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
 //! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `lit_layer`; [`painting`] for RGBA volumes |
@@ -145,6 +145,8 @@
 //! [`composite::thicken`]: view::composite::thicken
 //! [`pyramid`]: volume::pyramid
 //! [`painting`]: volume::painting
+//! [`ranges`]: volume::ranges
+//! [`gradients`]: volume::gradients
 //! [`grid::Scalars`]: volume::grid::Scalars
 //! [`grid::Grid`]: volume::grid::Grid
 //! [`gel`]: volume::gel

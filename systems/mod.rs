@@ -13,7 +13,7 @@ macro_rules! stages {
 }
 
 stages! {
-    gradient::TakeGradient,
+    ranges::FindRanges,
     classify::Classify,
     shade::Shade,
     scan_convert::ScanConvert,

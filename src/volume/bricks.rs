@@ -75,6 +75,15 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
         size: [usize; 3],
         make: impl Fn(Place, &mut [T; VOXELS]) -> bool + Send + Sync,
     ) -> Self {
+        Self::make_where(size, |_| true, make)
+    }
+
+    /// [`Bricks::make`], of which the bricks that `may_hold` denies are neither made nor stored.
+    pub fn make_where(
+        size: [usize; 3],
+        may_hold: impl Fn(Place) -> bool + Send + Sync,
+        make: impl Fn(Place, &mut [T; VOXELS]) -> bool + Send + Sync,
+    ) -> Self {
         let counts = size.map(|n| n.div_ceil(EDGE));
         let per_layer = counts[0] * counts[1];
         let mut table = vec![EMPTY; per_layer * counts[2]];
@@ -83,6 +92,9 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
             let mut brick = [T::default(); VOXELS];
             for (at, entry) in table.iter_mut().enumerate() {
                 let place = Place::new([at % counts[0], at / counts[0], z], size);
+                if !may_hold(place) {
+                    continue;
+                }
                 if make(place, &mut brick) {
                     *entry = stored.len() as u32;
                     stored.push(brick);
@@ -101,12 +113,12 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
         &self,
         make: impl Fn(Place, &[T; VOXELS], &mut [U; VOXELS]) + Send + Sync,
     ) -> Bricks<U> {
-        Bricks::make(self.size(), |place, made| match self.brick(place.brick) {
-            Some(brick) => {
+        let is_stored = |place: Place| self.brick(place.brick).is_some();
+        Bricks::make_where(self.size(), is_stored, |place, made| {
+            self.brick(place.brick).is_some_and(|brick| {
                 make(place, brick, made);
                 true
-            }
-            None => false,
+            })
         })
     }
 

@@ -125,18 +125,47 @@ pub trait Scalar: Copy + Send + Sync + 'static {
     fn value(self) -> f32;
     /// `self − other` without overflow, rounded once.
     fn minus(self, other: Self) -> f32;
+    /// The smaller number; the other where one is a NaN.
+    #[must_use]
+    fn least(self, other: Self) -> Self;
+    /// The larger number; the other where one is a NaN.
+    #[must_use]
+    fn most(self, other: Self) -> Self;
+    /// The largest and the smallest of all numbers, infinite ones included: what every range lies between.
+    const ENDS: [Self; 2];
+    /// Whether there is a NaN among the numbers of this type.
+    const HAS_NAN: bool;
 }
 
 macro_rules! scalar {
-    ($($kind:ty => $wide:ty),*) => {$(
+    ($($kind:ident => $wide:ident, $most:ident, $least:ident, $nan:literal;)*) => {$(
         #[allow(clippy::cast_lossless, reason = "one body for all types")]
         impl Scalar for $kind {
+            #[inline]
             fn value(self) -> f32 { self as f32 }
+            #[inline]
             fn minus(self, other: Self) -> f32 { (self as $wide - other as $wide) as f32 }
+            #[inline]
+            fn least(self, other: Self) -> Self { self.min(other) }
+            #[inline]
+            fn most(self, other: Self) -> Self { self.max(other) }
+            const ENDS: [Self; 2] = [$kind::$most, $kind::$least];
+            const HAS_NAN: bool = $nan;
         }
     )*};
 }
-scalar!(u8 => i32, i8 => i32, u16 => i32, i16 => i32, u32 => i64, i32 => i64, u64 => i128, i64 => i128, f32 => f64, f64 => f64);
+scalar! {
+    u8 => i32, MAX, MIN, false;
+    i8 => i32, MAX, MIN, false;
+    u16 => i32, MAX, MIN, false;
+    i16 => i32, MAX, MIN, false;
+    u32 => i64, MAX, MIN, false;
+    i32 => i64, MAX, MIN, false;
+    u64 => i128, MAX, MIN, false;
+    i64 => i128, MAX, MIN, false;
+    f32 => f64, INFINITY, NEG_INFINITY, true;
+    f64 => f64, INFINITY, NEG_INFINITY, true;
+}
 
 /// Runs an expression on the typed slice inside [`Scalars`]: `with_scalars!(scalars, values => expression)`.
 #[macro_export]

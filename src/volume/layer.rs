@@ -1,23 +1,14 @@
-//! What stages make of voxels, from the gradient to the matted layer: a product a system, carried by the volume or polygon.
+//! What stages make of voxels, from the opacity to the matted layer: a product a system, carried by the volume or polygon.
 
 use super::bricks::Bricks;
 use crate::schedule::Product;
-use crate::shared::Shared;
-
-/// ∇f at every voxel of a volume (algorithm §2), in scalar units per world unit, world axes; x fastest, dense.
-///
-/// A voxel whose gradient needs a NaN has the gradient zero.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Gradient(pub Shared<[f32; 3]>);
-
-impl Product for Gradient {}
 
 /// α_V of every voxel, 0..=1 per opacity unit, after clipping; bricks without an interesting voxel are not stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opacity {
     /// The opacities.
     pub voxels: Bricks<f32>,
-    /// How many voxels held a NaN; their opacity is 0.
+    /// How many voxels of the volume hold a NaN; their opacity is 0.
     pub nan_voxels: u64,
 }
 

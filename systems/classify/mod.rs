@@ -1,7 +1,5 @@
 //! `classify`: the opacity of every voxel from its scalar and gradient (algorithm §2), weakened where a clip cuts.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use hecs::{Entity, World};
 
 use crate::components::{self, Clip, Material, OpacityUnit};
@@ -10,8 +8,10 @@ use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
+use crate::volume::gradients::Gradients;
 use crate::volume::grid::{Grid, Scalar, Scalars};
-use crate::volume::layer::{Gradient, Opacity};
+use crate::volume::layer::Opacity;
+use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
 use crate::with_scalars;
 
@@ -21,7 +21,7 @@ pub struct Classify;
 #[derive(PartialEq)]
 struct Inputs {
     scalars: Scalars,
-    gradient: Gradient,
+    ranges: Ranges,
     grid: Grid,
     classify: components::Classify,
     unit: OpacityUnit,
@@ -31,24 +31,23 @@ struct Inputs {
 impl System for Classify {
     type Product = Opacity;
     const NAME: &'static str = "classify";
-    const READS: &'static [ProductKey] = &[ProductKey::of::<Gradient>()];
+    const READS: &'static [ProductKey] = &[ProductKey::of::<Ranges>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Opacity>) -> Result<(), Error> {
         type Volume<'a> = (
             Entity,
             &'a Scalars,
-            &'a Gradient,
+            &'a Ranges,
             &'a Grid,
             &'a components::Classify,
             &'a OpacityUnit,
             Option<&'a Clip>,
         );
         let watch = out.watch();
-        for (entity, scalars, gradient, grid, classify, unit, clip) in &mut world.query::<Volume>()
-        {
+        for (entity, scalars, ranges, grid, classify, unit, clip) in &mut world.query::<Volume>() {
             let inputs = Inputs {
                 scalars: scalars.clone(),
-                gradient: gradient.clone(),
+                ranges: ranges.clone(),
                 grid: *grid,
                 classify: classify.clone(),
                 unit: *unit,
@@ -80,49 +79,50 @@ impl Inputs {
         // Opacity does not depend on the material, so that a change of colour classifies nothing again.
         let classifier = Classifier::new(&self.classify, &Material::default(), self.unit.0);
         let cut = self.clip.as_ref().map(|clip| Cut::new(clip, &self.grid));
-        let nan_voxels = AtomicU64::new(0);
-        let voxels = Bricks::make(size, |place, brick| {
+        let gradients = Gradients::new(&self.grid);
+        let left = |place: Place| {
+            cut.as_ref().map_or(Left::Whole, |cut| cut.left(place.first, place.extent))
+        };
+        let may_hold = |place: Place| {
+            let range = self.ranges.around(place.brick);
+            let steepest = gradients.at_most(range.spread, place.first, place.extent);
+            classifier.may_show(range, steepest) && left(place) != Left::Nothing
+        };
+        let voxels = Bricks::make_where(size, may_hold, |place, brick| {
             if watch.check().is_err() {
                 return false;
             }
-            let left = cut.as_ref().map_or(Left::Whole, |cut| cut.left(place.first, place.extent));
-            let nan = self.fill(values, &classifier, place, brick);
-            if nan > 0 {
-                nan_voxels.fetch_add(nan, Ordering::Relaxed);
-            }
-            match (left, &cut) {
-                (Left::Nothing, _) => return false,
-                (Left::Part, Some(cut)) => clip_brick(cut, place, brick),
-                _ => {}
+            fill(values, size, &gradients, &classifier, place, brick);
+            if let (Left::Part, Some(cut)) = (left(place), &cut) {
+                clip_brick(cut, place, brick);
             }
             brick.iter().any(|&alpha| alpha > 0.0)
         });
-        Opacity { voxels, nan_voxels: nan_voxels.into_inner() }
+        Opacity { voxels, nan_voxels: self.ranges.nan_voxels() }
     }
+}
 
-    /// Fills a brick with opacities; how many of its voxels hold a NaN.
-    fn fill<T: Scalar>(
-        &self,
-        values: &[T],
-        classifier: &Classifier,
-        place: Place,
-        brick: &mut [f32; VOXELS],
-    ) -> u64 {
-        let [x, y, z] = place.first;
-        let mut nan = 0;
-        for (dz, dy) in
-            (0..place.extent[2]).flat_map(|dz| (0..place.extent[1]).map(move |dy| (dz, dy)))
-        {
-            let (offset, n) = (self.grid.offset([x, y + dy, z + dz]), place.extent[0]);
-            let (values, gradients) = (&values[offset..][..n], &self.gradient.0[offset..][..n]);
-            let row = &mut brick[(dz * EDGE + dy) * EDGE..][..n];
-            for ((alpha, value), gradient) in row.iter_mut().zip(values).zip(gradients) {
-                let value = value.value();
-                nan += u64::from(value.is_nan());
-                *alpha = classifier.opacity(value, *gradient);
-            }
+/// Fills a brick with opacities.
+fn fill<T: Scalar>(
+    values: &[T],
+    [nx, ny, _]: [usize; 3],
+    gradients: &Gradients,
+    classifier: &Classifier,
+    place: Place,
+    brick: &mut [f32; VOXELS],
+) {
+    let ([x, y, z], [n, rows, slices]) = (place.first, place.extent);
+    // Without gradients, zeros: they are not looked at.
+    let mut row = [[0.0; 3]; EDGE];
+    for (dz, dy) in (0..slices).flat_map(|dz| (0..rows).map(move |dy| (dz, dy))) {
+        if classifier.is_of_gradient() {
+            gradients.row(values, [x, y + dy, z + dz], &mut row[..n]);
         }
-        nan
+        let values = &values[((z + dz) * ny + y + dy) * nx + x..][..n];
+        let alphas = &mut brick[(dz * EDGE + dy) * EDGE..][..n];
+        for ((alpha, value), gradient) in alphas.iter_mut().zip(values).zip(&row) {
+            *alpha = classifier.opacity(value.value(), *gradient);
+        }
     }
 }
 

@@ -10,9 +10,11 @@ use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::{self, Bricks, EDGE};
 use crate::volume::classification::Classifier;
-use crate::volume::grid::Scalars;
-use crate::volume::layer::{Gradient, LitColors, Opacity};
+use crate::volume::gradients::Gradients;
+use crate::volume::grid::{Grid, Scalar, Scalars};
+use crate::volume::layer::{LitColors, Opacity};
 use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
+use crate::with_scalars;
 
 /// Makes the [`LitColors`] of every volume that is classified.
 pub struct Shade;
@@ -20,7 +22,7 @@ pub struct Shade;
 #[derive(PartialEq)]
 struct Inputs {
     scalars: Scalars,
-    gradient: Gradient,
+    grid: Grid,
     opacity: Opacity,
     classify: Classify,
     material: Material,
@@ -33,14 +35,13 @@ struct Inputs {
 impl System for Shade {
     type Product = LitColors;
     const NAME: &'static str = "shade";
-    const READS: &'static [ProductKey] =
-        &[ProductKey::of::<Gradient>(), ProductKey::of::<Opacity>()];
+    const READS: &'static [ProductKey] = &[ProductKey::of::<Opacity>()];
 
     fn run(world: &World, out: &mut Outbox<'_, LitColors>) -> Result<(), Error> {
         type Volume<'a> = (
             Entity,
             &'a Scalars,
-            &'a Gradient,
+            &'a Grid,
             &'a Opacity,
             &'a Classify,
             &'a OpacityUnit,
@@ -48,13 +49,13 @@ impl System for Shade {
         );
         let watch = out.watch();
         let apart = observer::is_cued(world);
-        for (entity, scalars, gradient, opacity, classify, unit, material) in
+        for (entity, scalars, grid, opacity, classify, unit, material) in
             &mut world.query::<Volume>()
         {
             let material = material.cloned().unwrap_or_default();
             let inputs = Inputs {
                 scalars: scalars.clone(),
-                gradient: gradient.clone(),
+                grid: *grid,
                 opacity: opacity.clone(),
                 classify: classify.clone(),
                 unit: *unit,
@@ -110,21 +111,30 @@ impl Inputs {
         watch: &Watch,
         light: impl Fn(Vec3, Vec3) -> Vec3 + Sync + Send,
     ) -> Bricks<[f32; 3]> {
-        let opacity = &self.opacity.voxels;
-        let [nx, ny, _] = opacity.size();
-        opacity.map(|place, alpha, made| {
+        let [nx, ny, _] = self.grid.size;
+        let gradients = Gradients::new(&self.grid);
+        with_scalars!(&self.scalars, values => self.opacity.voxels.map(|place, alpha, made| {
             if watch.check().is_err() {
                 return;
             }
-            let [x, y, z] = place.first;
-            for (at, _) in alpha.iter().enumerate().filter(|(_, alpha)| **alpha > 0.0) {
-                let [dx, dy, dz] = [at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)];
-                let offset = ((z + dz) * ny + y + dy) * nx + x + dx;
-                let gradient = self.gradient.0[offset];
-                let color = classifier.color(self.scalars.value(offset), gradient);
-                made[at] = light(color, normal(gradient)).to_array();
+            let ([x, y, z], n) = (place.first, place.extent[0]);
+            let mut slopes = [[0.0; 3]; EDGE];
+            for (row, alpha) in alpha.chunks_exact(EDGE).enumerate() {
+                if alpha.iter().all(|alpha| *alpha <= 0.0) {
+                    continue;
+                }
+                let [y, z] = [y + row % EDGE, z + row / EDGE];
+                gradients.row(values, [x, y, z], &mut slopes[..n]);
+                let values = &values[(z * ny + y) * nx + x..][..n];
+                let made = made[row * EDGE..][..n].iter_mut().zip(alpha);
+                for ((made, _), (value, slope)) in
+                    made.zip(values.iter().zip(&slopes)).filter(|((_, alpha), _)| **alpha > 0.0)
+                {
+                    let color = classifier.color(value.value(), *slope);
+                    *made = light(color, normal(*slope)).to_array();
+                }
             }
-        })
+        }))
     }
 }
 

@@ -7,8 +7,9 @@ use gelray::view::picture::Frame;
 use gelray::view::samples::Samples;
 use gelray::volume::bricks::Bricks;
 use gelray::volume::gel::Gel;
-use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::layer::{LitColors, Opacity};
 use gelray::volume::pyramid::Pyramid;
+use gelray::volume::ranges::Ranges;
 use hecs::EntityRef;
 
 use super::support::{Shown, assert_sound, rendered, run};
@@ -19,7 +20,7 @@ fn taken(entity: EntityRef<'_>, system: &str) -> Option<u64> {
         entity.get::<&P>().map(|product| of(&product))
     }
     match system {
-        "gradient" => bytes(entity, |made: &Gradient| made.0.bytes()),
+        "ranges" => bytes(entity, |made: &Ranges| made.bytes()),
         "classify" => bytes(entity, |made: &Opacity| made.voxels.bytes()),
         "shade" => bytes(entity, |made: &LitColors| {
             let apart = made.shadowed.iter().chain(&made.ambient);

@@ -10,7 +10,8 @@ use gelray::systems::JOBS;
 use gelray::view::extent::Extent;
 use gelray::view::samples::Samples;
 use gelray::volume::grid::Scalars;
-use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::ranges::Ranges;
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
@@ -61,7 +62,7 @@ fn made(world: &mut World) -> Vec<&'static str> {
 #[test]
 fn a_turn_of_the_view_casts_rays_and_resamples_and_nothing_else() {
     let Parts { mut world, view, .. } = parts();
-    let all = ["gradient", "classify", "shade", "relight", "pyramid", "cast", "resample"];
+    let all = ["ranges", "classify", "shade", "relight", "pyramid", "cast", "resample"];
     assert_eq!(made(&mut world), all);
     for _ in 0..3 {
         world.get::<&mut View>(view).unwrap().azimuth += 25.0;
@@ -72,10 +73,10 @@ fn a_turn_of_the_view_casts_rays_and_resamples_and_nothing_else() {
 }
 
 #[test]
-fn an_edit_makes_again_what_depends_on_it_and_never_the_gradient() {
+fn an_edit_makes_again_what_depends_on_it_and_never_the_ranges() {
     let Parts { mut world, volume, polygon, light, view } = parts();
     made(&mut world);
-    let gradient = Gradient::clone(&world.get::<&Gradient>(volume).unwrap());
+    let ranges = Ranges::clone(&world.get::<&Ranges>(volume).unwrap());
     let gel = ["relight", "pyramid", "cast", "resample"];
     world.get::<&mut Classify>(volume).unwrap().iso[0].value = 93.0;
     assert_eq!(made(&mut world), [&["classify", "shade"], &gel[..]].concat());
@@ -92,7 +93,7 @@ fn an_edit_makes_again_what_depends_on_it_and_never_the_gradient() {
     assert!(background.ends_with(&["resample"]), "{background:?}");
     world.despawn(polygon).unwrap();
     assert_eq!(made(&mut world), ["cast", "resample"]);
-    assert!(gradient == *world.get::<&Gradient>(volume).unwrap(), "the very same array");
+    assert!(ranges == *world.get::<&Ranges>(volume).unwrap(), "the very same array");
 }
 
 /// The systems that ran for something, made or kept, and those that plan to.
@@ -120,9 +121,7 @@ fn paint_without_polygons_runs_no_system_for_what_it_does_not_state() {
         assert!(plan.bytes() == 0 && !plan.why.is_empty(), "{}", job.name);
     }
     for entity in &world {
-        assert!(
-            !entity.has::<Gradient>() && !entity.has::<Opacity>() && !entity.has::<LitColors>()
-        );
+        assert!(!entity.has::<Ranges>() && !entity.has::<Opacity>() && !entity.has::<LitColors>());
     }
     // Without a polygon nothing is kept for C_G and C_A, and no position below a pixel.
     let samples = world.get::<&Samples>(view).unwrap();

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use gelray::components::CastsShadow;
 use gelray::view::picture::Picture;
-use gelray::volume::grid::Grid;
-use gelray::volume::layer::{Gradient, Opacity};
+use gelray::volume::gradients::Gradients;
+use gelray::volume::grid::{Grid, Scalars};
+use gelray::volume::layer::Opacity;
 use glam::Vec3;
 use hecs::World;
 
@@ -61,13 +62,14 @@ fn mean_and_speckle(picture: &Picture, parts: &[Option<f32>], lit: &[bool]) -> [
 /// The mean strength at opaque voxels whose surface faces away from the light by more than 60 degrees past its edge.
 fn leak(world: &World) -> f32 {
     let strength = strength(world).unwrap();
-    let mut volumes = world.query::<(&Opacity, &Gradient, &Grid)>();
-    let (opacity, gradient, grid) = volumes.iter().next().unwrap();
+    let mut volumes = world.query::<(&Opacity, &Scalars, &Grid)>();
+    let (opacity, scalars, grid) = volumes.iter().next().unwrap();
+    let gradients = Gradients::new(grid);
     let toward = Vec3::from(TOWARD).normalize();
     let (mut sum, mut count) = (0.0, 0.0);
     for (place, brick) in opacity.voxels.stored() {
         for (_, voxel) in place.voxels().filter(|(within, _)| brick[*within] > 0.5) {
-            let outward = -Vec3::from(gradient.0[grid.offset(voxel)]).normalize_or_zero();
+            let outward = -Vec3::from(gradients.of(scalars, voxel)).normalize_or_zero();
             if outward.dot(toward) < -0.5 {
                 sum += f32::from(strength.volumes[0].1.voxels.value(voxel)) / 65535.0
                     * strength.volumes[0].1.full;

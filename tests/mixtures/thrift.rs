@@ -3,7 +3,7 @@
 use gelray::components::{View, Voxelize};
 use gelray::light::strength::LightStrength;
 use gelray::schedule::{Job, Ran, Schedule, System, Watch};
-use gelray::systems::{classify, gradient, light_sweep::LightSweep, matte, scan_convert};
+use gelray::systems::{classify, light_sweep::LightSweep, matte, ranges, scan_convert};
 
 use crate::{KEY, entity, gel, level, run, stated, strength, view};
 
@@ -83,7 +83,7 @@ fn the_shadows_of_a_head_take_less_than_five_megabytes_where_nothing_reads_the_w
     let plane = level("plane", 0.0, 60.0, "surface = { opacity = 0.5 }");
     let mut world = stated(&[HEAD, &plane, KEY, &view(0.0, 0.0, 16, 300.0, "")], &[]);
     let jobs = [
-        Job::of::<gradient::TakeGradient>(),
+        Job::of::<ranges::FindRanges>(),
         Job::of::<classify::Classify>(),
         Job::of::<scan_convert::ScanConvert>(),
         Job::of::<matte::Matte>(),

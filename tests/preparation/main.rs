@@ -1,6 +1,7 @@
 //! Preparation, from scalars to gel and pyramid: what the stages make together, and what they need not make again.
 
 mod extremes;
+mod sparse;
 mod stages;
 mod thrift;
 
@@ -19,7 +20,7 @@ use glam::{DVec3, Vec3, Vec4};
 use hecs::{Entity, World};
 
 /// The stages of preparation, in the order that the schedule gives them.
-const STAGES: [&str; 5] = ["gradient", "classify", "shade", "relight", "pyramid"];
+const STAGES: [&str; 5] = ["ranges", "classify", "shade", "relight", "pyramid"];
 
 /// The schedule of preparation alone.
 fn schedule() -> Schedule {

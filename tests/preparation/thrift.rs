@@ -8,8 +8,9 @@ use gelray::shared::Shared;
 use gelray::systems::JOBS;
 use gelray::volume::gel::Gel;
 use gelray::volume::grid::{Grid, Painted};
-use gelray::volume::layer::{Gradient, LitColors, Opacity};
+use gelray::volume::layer::{LitColors, Opacity};
 use gelray::volume::pyramid::Pyramid;
+use gelray::volume::ranges::Ranges;
 use hecs::{Entity, World};
 
 use super::{Ball, STAGES, ball, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume};
@@ -104,14 +105,14 @@ fn what_is_no_longer_stated_is_taken_off() {
     world.remove_one::<Classify>(volume).unwrap();
     prepare(&mut world);
     let left = world.entity(volume).unwrap();
-    assert!(!left.has::<Gradient>() && !left.has::<Opacity>() && !left.has::<LitColors>());
+    assert!(!left.has::<Ranges>() && !left.has::<Opacity>() && !left.has::<LitColors>());
     assert!(!left.has::<Gel>() && !left.has::<Pyramid>());
 }
 
 /// The bytes that a stage's product takes on an entity, if it is there.
 fn taken(world: &World, stage: &str, entity: Entity) -> Option<u64> {
     match stage {
-        "gradient" => world.get::<&Gradient>(entity).ok().map(|made| made.0.bytes()),
+        "ranges" => world.get::<&Ranges>(entity).ok().map(|made| made.bytes()),
         "classify" => world.get::<&Opacity>(entity).ok().map(|made| made.voxels.bytes()),
         "shade" => world.get::<&LitColors>(entity).ok().map(|made| {
             let apart = made.shadowed.iter().chain(&made.ambient);

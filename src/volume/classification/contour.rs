@@ -61,6 +61,15 @@ impl Contours {
         })
     }
 
+    /// Whether a contour may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
+    pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
+        self.0.iter().any(|line| {
+            let away = (low - line.value).max(line.value - high).max(0.0);
+            let reach = line.squared_reach * steepest * steepest;
+            line.opacity > 0.0 && (away == 0.0 || away * away < reach)
+        })
+    }
+
     /// The mean of the contours' colours, each weighted by its opacity; `None` where there is none.
     pub fn color(&self, f: f64, gradient: [f32; 3]) -> Option<DVec3> {
         let gg = square(gradient);

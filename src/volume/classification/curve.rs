@@ -42,6 +42,16 @@ impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Curve<V> {
 }
 
 impl Curve<f64> {
+    /// Whether the value is above 0 somewhere from `low` to `high`, for a curve that is nowhere below 0.
+    pub fn rises(&self, low: f64, high: f64) -> bool {
+        let within = |at: f64| low <= at && at <= high;
+        let above = |value: Option<f64>| value.is_some_and(|value| value > 0.0);
+        // It is straight between points: where it is 0 at both ends and at every point between them, it is 0.
+        above(self.value(low))
+            || above(self.value(high))
+            || self.0.iter().any(|(at, value)| within(*at) && *value > 0.0)
+    }
+
     /// The interval outside of which the value is surely 0; from ∞ to −∞ if it is 0 everywhere.
     pub fn support(&self) -> [f64; 2] {
         let some = |point: &(f64, f64)| point.1 > 0.0;

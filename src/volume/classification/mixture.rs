@@ -48,6 +48,11 @@ impl Mixture {
         weighted_mean(self.probabilities(f).map(|(p, part)| (p * part.opacity, part.color)))
     }
 
+    /// Whether a material may be seen at scalars from `low` to `high`.
+    pub fn may_show(&self, low: f64, high: f64) -> bool {
+        self.0.iter().any(|part| part.opacity > 0.0 && part.probability.rises(low, high))
+    }
+
     /// The values outside of which the opacity is surely 0.
     pub fn range(&self) -> [f64; 2] {
         let seen = self.0.iter().filter(|part| part.opacity > 0.0);

@@ -10,6 +10,7 @@ mod transfer;
 use glam::{DVec3, Vec3};
 
 use crate::components::{Classify, Material};
+use crate::volume::ranges::Range;
 use contour::Contours;
 use mixture::Mixture;
 use numbers::fraction;
@@ -81,6 +82,31 @@ impl Classifier {
             How::Mixture(mixture) => mixture.opacity(f),
         };
         fraction(alpha) as f32
+    }
+
+    /// Whether a voxel may be seen (have an opacity above 0) whose scalar lies in `range` and whose gradient is no longer
+    /// than `steepest`, world units. Where this is denied, [`Classifier::opacity`] is 0.
+    #[must_use]
+    pub fn may_show(&self, range: Range, steepest: f64) -> bool {
+        let low = f64::from(range.low).max(self.range[0]);
+        let high = f64::from(range.high).min(self.range[1]);
+        low <= high
+            && match &self.how {
+                How::Contours(contours) => contours.may_show(low, high, steepest),
+                How::Regions(regions) => regions.may_show(low, high, steepest),
+                How::Transfer(transfer) => transfer.may_show(low, high, steepest),
+                How::Mixture(mixture) => mixture.may_show(low, high),
+            }
+    }
+
+    /// Whether the opacity depends on the gradient at all.
+    #[must_use]
+    pub fn is_of_gradient(&self) -> bool {
+        match &self.how {
+            How::Contours(_) | How::Regions(_) => true,
+            How::Transfer(transfer) => transfer.is_of_gradient(),
+            How::Mixture(_) => false,
+        }
     }
 
     /// c_p, linear, of a voxel of scalar `value` and world `gradient`.

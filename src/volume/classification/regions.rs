@@ -52,6 +52,13 @@ impl Regions {
         if contrast > 0.0 { alpha * (gg.sqrt() * self.unit / contrast).min(1.0) } else { 0.0 }
     }
 
+    /// Whether a boundary may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
+    pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
+        let ends = self.range();
+        let (low, high) = (low.max(ends[0]), high.min(ends[1]));
+        steepest > 0.0 && low <= high && self.opacity.rises(low, high)
+    }
+
     /// The two tissues' colours, weighted by what each gives to the opacity.
     pub fn color(&self, f: f64) -> Option<DVec3> {
         let alpha = self.opacity.value(f).filter(|alpha| *alpha > 0.0);

@@ -60,6 +60,30 @@ proptest! {
     }
 
     #[test]
+    fn what_the_bounds_of_a_block_deny_no_voxel_of_it_shows(
+        stated in [number(), number(), number(), number()],
+        values in [number(), number(), number()],
+        gradients in [[number(), number(), number()], [number(), number(), number()]],
+        slope in 0.0_f32..50.0,
+    ) {
+        let unless_nan = |f: &f32| !f.is_nan();
+        let low = values.into_iter().filter(unless_nan).fold(f32::INFINITY, f32::min);
+        let high = values.into_iter().filter(unless_nan).fold(f32::NEG_INFINITY, f32::max);
+        let range = Range { low, high, spread: 0.0 };
+        let finite = |g: &[f32; 3]| g.iter().all(|c| c.is_finite());
+        let mut gradients: Vec<_> = gradients.into_iter().filter(finite).collect();
+        gradients.extend([[0.0; 3], [slope, 0.0, 0.0]]);
+        for classify in four_ways(stated[0], stated[1], stated[2], stated[3]) {
+            let classifier = Classifier::new(&classify, &Material::default(), 1.0);
+            for g in &gradients {
+                let steepest = numbers::square(*g).sqrt() * (1.0 + 1e-5);
+                let shows = values.iter().any(|f| classifier.opacity(*f, *g) > 0.0);
+                prop_assert!(!shows || classifier.may_show(range, steepest), "{classify:?} {g:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_classification_does_not_depend_on_the_unit_of_length(
         f in 0.0_f32..200.0,
         g in [-80.0_f32..80.0, -80.0_f32..80.0, -80.0_f32..80.0],
@@ -100,4 +124,35 @@ fn a_classification_that_states_nothing_is_clear() {
     let nothing = Classifier::new(&Classify::default(), &Material::default(), 1.0);
     assert_eq!(nothing.opacity(60.0, [1.0; 3]), 0.0);
     assert!(nothing.range()[0] > nothing.range()[1]);
+}
+
+#[test]
+fn bounds_deny_what_is_far_from_every_level_in_value_or_in_slope() {
+    let way = |at: usize| {
+        let classify = four_ways(60.0, 150.0, 0.7, 2.0).into_iter().nth(at).unwrap();
+        Classifier::new(&classify, &Material::default(), 1.0)
+    };
+    let between = |low, high| Range { low, high, spread: high - low };
+    let [contours, regions, transfer, mixture] = [0, 1, 2, 3].map(way);
+    assert!(
+        contours.may_show(between(50.0, 55.0), 2.6) && contours.may_show(between(59.0, 61.0), 0.0)
+    );
+    assert!(
+        !contours.may_show(between(50.0, 55.0), 2.4)
+            && !contours.may_show(between(80.0, 90.0), 9.0)
+    );
+    assert!(regions.may_show(between(0.0, 70.0), 1.0));
+    assert!(
+        !regions.may_show(between(80.0, 90.0), 0.0) && !regions.may_show(between(0.0, 59.0), 9.0)
+    );
+    assert!(
+        transfer.may_show(between(100.0, 120.0), 1.0)
+            && !transfer.may_show(between(100.0, 120.0), 0.0)
+    );
+    assert!(!transfer.may_show(between(150.0, 190.0), 9.0));
+    assert!(
+        mixture.may_show(between(61.0, 70.0), 0.0) && !mixture.may_show(between(0.0, 60.0), 9.0)
+    );
+    let nothing = Range { low: f32::INFINITY, high: f32::NEG_INFINITY, spread: 0.0 };
+    assert!([contours, regions, transfer, mixture].iter().all(|c| !c.may_show(nothing, 1.0)));
 }

@@ -40,6 +40,17 @@ impl Transfer {
         }
     }
 
+    /// Whether anything may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
+    pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
+        self.opacity.rises(low, high)
+            && self.factor.as_ref().is_none_or(|factor| factor.rises(0.0, steepest))
+    }
+
+    /// Whether the opacity depends on the gradient.
+    pub fn is_of_gradient(&self) -> bool {
+        self.factor.is_some()
+    }
+
     /// The colour at `f`; `None` without points.
     pub fn color(&self, f: f64) -> Option<DVec3> {
         self.color.value(f)
