@@ -5,6 +5,7 @@
 //! apart, as voxels are, where nothing else is said. Ways of casting are interleaved view by view, ratios are of one view's
 //! frames, and medians are over views. `--quick` takes fewer.
 
+#[allow(dead_code, reason = "other benches tell what threads were busy with")]
 mod timed;
 mod way;
 

@@ -15,7 +15,12 @@ use gelray::measure::cost::FRAME;
 use gelray::scene::Source;
 use gelray::shared::Shared;
 use gelray::view::extent::Extent;
+use gelray::volume::bricks::EDGE;
+use gelray::volume::classification::Classifier;
+use gelray::volume::gradients::Gradients;
 use gelray::volume::grid::{Grid, Scalar, Scalars};
+use gelray::volume::layer::Opacity;
+use gelray::volume::ranges::Ranges;
 use hecs::World;
 use rayon::prelude::*;
 use timed::{Setting, Spread, is_quick, on_threads};
@@ -85,10 +90,10 @@ fn shell(n: usize) -> (Scalars, usize) {
     (Scalars::U16(Shared::new(field(n, value))), n)
 }
 
-/// Small balls in a volume that is empty else, one in each block of 128³ voxels.
+/// Small balls in a volume that is empty else, one in each block of 256³ voxels.
 fn sparse(n: usize) -> (Scalars, usize) {
     let value = |place: [f32; 3]| {
-        let within = place.map(|c| c.rem_euclid(128.0) - 64.0);
+        let within = place.map(|c| c.rem_euclid(256.0) - 128.0);
         let squared: f32 = within.iter().map(|c| c * c).sum();
         if squared > 576.0 {
             0
@@ -132,6 +137,7 @@ fn tell(grown: &Grown) {
     let bytes = voxels.0.bytes() as f64;
     let mut world = world(voxels);
     let before = timed::peak_megabytes() * 1e6;
+    let busy = timed::busy_seconds();
     let rendered = Renderer::new().and_then(|renderer| renderer.render(&mut world));
     let ran = rendered.expect("a volume made by formula renders").ran;
     let prepared = ran.iter().filter(|ran| !FRAME.contains(&ran.name));
@@ -144,10 +150,30 @@ fn tell(grown: &Grown) {
     let seconds: f64 = prepared.map(|ran| ran.seconds).sum();
     let peak = timed::peak_megabytes() * 1e6 / bytes;
     println!(
-        "prepared in {seconds:.3} s ({} ms), with the frame {frame:.3} s; most memory {peak:.2} × its voxels (before: {:.2} ×)",
+        "prepared in {seconds:.3} s ({} ms), with the frame {frame:.3} s, {:.2} s of all threads; most memory {peak:.2} × its voxels (before: {:.2} ×); {}",
         stages.join(", "),
-        before / bytes
+        timed::busy_seconds() - busy,
+        before / bytes,
+        looked_at(&mut world)
     );
+}
+
+/// How many bricks there are, how many of them are classified, and how many hold something.
+fn looked_at(world: &mut World) -> String {
+    let mut volumes = world.query_mut::<(&Grid, &Ranges, &Classify, &Opacity)>().into_iter();
+    let (grid, ranges, classify, opacity) = volumes.next().expect("a volume was prepared");
+    let classifier = Classifier::new(classify, &Material::default(), 1.0);
+    let gradients = Gradients::new(grid);
+    let counts = opacity.voxels.counts();
+    let may_show = |at: &usize| {
+        let brick = [at % counts[0], at / counts[0] % counts[1], at / (counts[0] * counts[1])];
+        let range = ranges.around(brick);
+        classifier
+            .may_show(range, gradients.at_most(range.spread, brick.map(|b| b * EDGE), [EDGE; 3]))
+    };
+    let bricks: usize = counts.iter().product();
+    let classified = (0..bricks).filter(may_show).count();
+    format!("{bricks} bricks, {classified} classified, {} stored", opacity.voxels.stored().count())
 }
 
 /// From an edit to the picture of it, in one world.

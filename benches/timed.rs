@@ -76,6 +76,15 @@ pub fn peak_megabytes() -> f64 {
     kibibytes.map_or(f64::NAN, |kibibytes| kibibytes * 1024.0 / 1e6)
 }
 
+/// Seconds that processors were busy with this program until now, all threads together; NaN where the system tells none.
+pub fn busy_seconds() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // After the name, which ends in the last parenthesis: the twelfth and thirteenth fields, in hundredths.
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11).take(2);
+    let ticks: Vec<f64> = fields.filter_map(|field| field.parse().ok()).collect();
+    if ticks.len() == 2 { (ticks[0] + ticks[1]) / 100.0 } else { f64::NAN }
+}
+
 /// The middle one of some numbers, the least and the greatest; NaN of none.
 #[derive(Clone, Copy)]
 pub struct Spread {

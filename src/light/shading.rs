@@ -101,12 +101,29 @@ impl Lamp {
         let diffuse = how.diffuse * (side * facing).max(0.0);
         let glint = side * normal.dot(self.half);
         let specular = if how.specular > 0.0 && glint > 0.0 {
-            how.specular * libm::powf(glint, how.shininess)
+            how.specular * power(glint, how.shininess)
         } else {
             0.0
         };
         color * self.light * (diffuse + specular)
     }
+}
+
+/// `base^exponent` of a base in 0..=1, to within an ulp, alike on every machine.
+#[inline]
+fn power(base: f32, exponent: f32) -> f32 {
+    if exponent.fract() != 0.0 || !(0.0..=65536.0).contains(&exponent) {
+        return libm::powf(base, exponent);
+    }
+    // Most highlights have whole exponents: a few products in 64 bits are nearer to it than any general power of 32, and
+    // take a tenth of the time.
+    let (mut left, mut square, mut product) = (exponent as u32, f64::from(base), 1.0);
+    while left > 0 {
+        product *= if left & 1 == 1 { square } else { 1.0 };
+        square *= square;
+        left >>= 1;
+    }
+    product as f32
 }
 
 /// Unit vector towards a light for an observer in direction `observer`.
@@ -168,6 +185,17 @@ mod tests {
         let at = |normal: Vec3| lamp.reflected(Vec3::ONE, normal.normalize(), &shiny).x;
         assert!((at(Vec3::new(0.0, -1.0, 1.0)) - 0.5).abs() < 1e-5);
         assert!(at(Vec3::new(0.0, -0.8, 1.0)) < 0.5 && at(Vec3::ZERO.with_z(1.0)) < 0.01);
+    }
+
+    #[test]
+    fn a_power_of_a_whole_exponent_is_that_of_any_exponent() {
+        for base in (0..=1000_u16).map(|i| f32::from(i) / 1000.0) {
+            for exponent in [1.0, 2.0, 19.0, 20.0, 20.5, 255.0, 65536.0, 1e9] {
+                let exact = libm::pow(f64::from(base), f64::from(exponent));
+                let error = (f64::from(power(base, exponent)) - exact).abs();
+                assert!(error <= exact * 1e-7 + 1e-44, "{base} {exponent} {error}");
+            }
+        }
     }
 
     #[test]
