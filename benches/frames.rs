@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use gelray::components::Classify;
 use gelray::scene::Source;
+use gelray::view::samples::Samples;
 use timed::{Setting, on_threads};
 
 /// The least seconds of each stage of each kind of run.
@@ -49,6 +50,8 @@ fn main() {
         }
         let mut setting = Setting::open(&source).expect("the scene is loaded");
         setting.run();
+        let made = setting.world.query_mut::<&Samples>().into_iter().next();
+        made.inspect(|Samples(samples)| println!("# {:?}", samples.counts));
         for turn in 0..repeat {
             setting.turn(20.0 + 1e-3 * turn as f64);
             note(&mut least, "turn", &mut setting);

@@ -82,13 +82,15 @@
 //!
 //! # The walk of a ray
 //!
-//! `cast` owns the rays of a view. `beams` splats the occupied bricks into tiles of the picture, which tells each beam
-//! where it can meet gel at all. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
+//! `cast` owns the rays of a view. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
 //! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that a polygon's edge is
-//! seen. `march` takes a packet of rays through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds into
-//! slivers (equations 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` finds which rays
-//! meet gel at a sample, `several` joins gels that overlap, `texture` filters what is mapped onto a polygon over the ray's footprint
-//! ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the sample array to
+//! seen. Rays go in packets: tiles of four by four neighbours on the grid in use. `march` takes a packet through slabs
+//! ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations 2a
+//! and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the whole
+//! packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the widest
+//! instructions that the machine has. `several` joins gels that overlap, `texture` filters what is mapped onto a polygon over
+//! the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the
+//! sample array to
 //! the picture, and [`formats::pictures`] writes it.
 //!
 //! # Where this differs from the paper, and why
@@ -96,9 +98,9 @@
 //! - **Colours are associated before they are interpolated**, and composited in linear light. Interpolating colour and
 //!   opacity apart bleeds colour out of voxels that are not seen.
 //! - **Samples have one global phase**: sample k lies at (k + ½) Δ from the plane through the focal point. Their places are
-//!   fixed-point voxel indices ([`ray::Walk`]), so that n steps at once are n steps exactly: stepping over empty gel meets
-//!   the very samples that walking would have met, and pictures are equal bit for bit with the pyramid and without it, and
-//!   on any number of threads.
+//!   fixed-point voxel indices ([`ray::Walk`]), affine over the picture, so that n steps at once are n steps exactly: stepping
+//!   over empty gel meets the very samples that walking would have met, and pictures are equal bit for bit with the pyramid
+//!   and without it, on any number of threads and with any set of instructions.
 //! - **Views may be in perspective** (`field_of_view`). Depth is measured along the line of sight for every ray, so that the
 //!   samples of all lie in the same planes; a slab is as thick as a ray's own way through it, and the one that the eye is in
 //!   counts from the eye on. `1 / (depth + eye)` is affine over a polygon where the depth is in a parallel view.
@@ -106,6 +108,9 @@
 //!   ([`composite::overlap`](view::composite::overlap)), independent of their order. What comes through several of them to a
 //!   voxel is the product of what comes through each, so each is swept by a light alone.
 //! - **Rays go in packets of sixteen**, neighbours side by side from sample to sample; each gathers what it would alone.
+//! - **The pyramid's upper levels are distances**: how many blocks of 4³ cells away the nearest interesting one is, and near
+//!   it a bit a cell that answers for sixteen rays at once. A level leaps to the end of an aligned cell, a distance across
+//!   all the room there is.
 //! - **Opacity is per unit of thickness.** A voxel's opacity is that of a slab one opacity unit thick; a sample stands for
 //!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture.
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::extent::Extent;
 use super::ray::Ray;
+use super::samples::POSITIONS;
 use crate::components::View;
 
 /// The frame of a view: unit vectors, the focal point, how large a pixel is there, and where the eye is.
@@ -56,6 +57,14 @@ impl Camera {
                 .field_of_view
                 .map(|degrees| height / 2.0 / libm::tan(degrees.to_radians() / 2.0)),
         }
+    }
+
+    /// The window position, in pixels, of a position of the sample array, counted from the middle of pixel (0, 0).
+    #[must_use]
+    #[inline]
+    pub fn window(position: [i64; 2]) -> DVec2 {
+        let [x, y] = position.map(|n| n as f64 / POSITIONS as f64 + 0.5);
+        DVec2::new(x, y)
     }
 
     /// The ray through window position `(x, y)`, in pixels from the top left corner.

@@ -15,6 +15,8 @@ pub struct Counts {
     pub samples: u64,
     /// Times that a ray stepped over an empty cell of the pyramid, of whatever level.
     pub cells_skipped: u64,
+    /// Samples that packets of sixteen rays looked at together.
+    pub packet_steps: u64,
     /// Polygons met by rays and composited into C.
     pub polygon_hits: u64,
     /// Parts of slabs that polygons had split.
@@ -26,6 +28,7 @@ impl std::ops::AddAssign for Counts {
         self.rays += other.rays;
         self.samples += other.samples;
         self.cells_skipped += other.cells_skipped;
+        self.packet_steps += other.packet_steps;
         self.polygon_hits += other.polygon_hits;
         self.slivers += other.slivers;
     }

@@ -1,92 +1,134 @@
-//! A ray through the voxels of a grid: samples at one global phase, in fixed-point voxel indices (algorithm §1).
+//! Rays through the voxels of a grid: samples at one global phase, in fixed-point voxel indices (algorithm §1).
 
-use glam::{DAffine3, DVec3, I64Vec3};
+use glam::{DVec2, DVec3, I64Vec3};
 
 use super::camera::Camera;
-use super::ray::Ray;
+use super::samples::POSITIONS;
 use crate::volume::grid::Grid;
 
 /// Bits of a voxel index behind the point.
 pub const FRACTION_BITS: u32 = 40;
 const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
+/// Rays along the side of a tile.
+pub const SIDE: usize = 4;
+/// Rays of a tile.
+pub const LANES: usize = SIDE * SIDE;
+/// How far beside the picture positions may lie, pixels.
+const BESIDE: f64 = 64.0;
 
 /// How the samples of the rays of a view walk through a grid: sample `k` lies at depth `(k + 1/2) Δ`.
 ///
-/// Positions are fixed-point voxel indices, so that going on by n steps is exact however the n are grouped: stepping
-/// over empty space lands on the very samples that walking would have met.
+/// Where a ray is, and how far it goes from sample to sample, are affine over the picture, in perspective too: both are
+/// fixed-point voxel indices, so that going on by n steps is exact however the n are grouped. Stepping over empty space lands
+/// on the very samples that walking would have met.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Walk {
-    world_to_index: DAffine3,
-    /// Δ, world units.
-    distance: f64,
+    /// Where rays are at sample `middle`.
+    places: Affine,
+    /// From each sample to the next.
+    steps: Affine,
+    /// The sample in the plane through the middle of the grid.
+    middle: i64,
+    /// The index of the last voxel, fixed-point.
     last: I64Vec3,
-    /// The stride that all rays share, if they are parallel.
-    parallel: Option<Stride>,
     /// The number of the slab that the eye is in: none before it is seen.
     nearest: i64,
+    /// Whether rays are parallel.
+    is_parallel: bool,
 }
 
-/// The way from a sample of a ray to the next.
+/// Fixed-point triples that are affine over positions of the picture, with more bits behind the point than are read.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stride {
-    /// Voxel indices, fixed-point.
-    pub step: I64Vec3,
-    /// 1 / |step|, a hair less, in 1 / fixed-point units; huge along an axis that the ray does not move on.
-    pub per_step: [f64; 3],
-    /// Whether a step is half a voxel or more: then a cell of eight voxels is not worth a leap.
-    pub is_coarse: bool,
+struct Affine {
+    /// At the middle of pixel (0, 0).
+    at: I64Vec3,
+    /// From each position to the one right of it.
+    across: I64Vec3,
+    /// And to the one below.
+    down: I64Vec3,
+    /// Bits more than `FRACTION_BITS`.
+    shift: u32,
 }
 
-impl Stride {
-    fn new(step: DVec3) -> Self {
-        let is_coarse = step.abs().max_element() >= 0.5;
-        let step = step.to_array().map(|s| (s * UNIT).round() as i64);
-        let per_step = step.map(|s| ((1.0 - 1e-12) / (s.unsigned_abs() as f64)).min(1e60));
-        Self { step: I64Vec3::from(step), per_step, is_coarse }
-    }
-
-    /// The stride of a ray that goes nowhere.
-    pub const NONE: Self = Self { step: I64Vec3::ZERO, per_step: [1e60; 3], is_coarse: true };
-
-    /// How many samples on the first one outside a cell of 2^`level` voxels a side is, from fixed-point voxel index `at` in
-    /// that cell: at least 1, and never past a sample outside it. Cells are aligned.
-    #[must_use]
-    #[inline]
-    pub fn leap(&self, at: I64Vec3, level: u32) -> i64 {
-        if level == 0 && self.is_coarse {
-            return 1;
+impl Affine {
+    /// The triples that `of` gives at window positions (pixels); `None` if some are too great to be told apart there.
+    fn new(of: impl Fn(DVec2) -> DVec3, size: [usize; 2]) -> Option<Self> {
+        let [width, height] = size.map(|n| n as f64);
+        let corners = [
+            (-BESIDE, -BESIDE),
+            (width + BESIDE, -BESIDE),
+            (-BESIDE, height + BESIDE),
+            (width + BESIDE, height + BESIDE),
+        ];
+        let most = corners.map(|(x, y)| of(DVec2::new(x, y)).abs().max_element());
+        let most = most.into_iter().fold(1e-9, f64::max);
+        let whole = most.log2().floor() as i64 + 1;
+        let bits = (61 - whole).min(80);
+        let shift = bits - i64::from(FRACTION_BITS);
+        if !most.is_finite() || shift < 0 {
+            return None;
         }
-        // The bits under `mask` are the place in the cell, whose complement is the room ahead.
-        let mask = (1_i64 << (level + FRACTION_BITS)) - 1;
-        let Self { step, per_step, .. } = *self;
-        let ahead = |at: i64, step: i64| ((at ^ !(step >> 63)) & mask) as f64;
-        let x = ahead(at.x, step.x) * per_step[0];
-        let y = ahead(at.y, step.y) * per_step[1];
-        let z = ahead(at.z, step.z) * per_step[2];
-        // Written out: `f64::min` would look for NaN, which cannot be.
-        let xy = if y < x { y } else { x };
-        (if z < xy { z } else { xy }) as i64 + 1
+        let unit = 2.0_f64.powi(bits as i32);
+        let fixed = |index: DVec3| (index * unit).round().as_i64vec3();
+        let middle = DVec2::splat(0.5);
+        // Over the whole picture and not from one position to the next: those may differ by less than rounding.
+        let slope =
+            |along: DVec2, n: f64| (of(middle + along * n) - of(middle)) / (n * POSITIONS as f64);
+        let (across, down) = (slope(DVec2::X, width), slope(DVec2::Y, height));
+        let (at, across, down) = (fixed(of(middle)), fixed(across), fixed(down));
+        Some(Self { at, across, down, shift: shift as u32 })
+    }
+
+    /// The same triple everywhere.
+    fn constant(triple: DVec3) -> Self {
+        let at = (triple * UNIT).round().as_i64vec3();
+        Self { at, across: I64Vec3::ZERO, down: I64Vec3::ZERO, shift: 0 }
+    }
+
+    /// Those of a tile, axis by axis.
+    #[inline]
+    fn tile(&self, [i, j]: [i64; 2], step: i64) -> [[i64; LANES]; 3] {
+        let half = if self.shift > 0 { 1_i64 << (self.shift - 1) } else { 0 };
+        std::array::from_fn(|axis| {
+            let (across, down) = (self.across[axis], self.down[axis]);
+            let first = self.at[axis] + across * i + down * j + half;
+            std::array::from_fn(|lane| {
+                let (x, y) = ((lane % SIDE) as i64 * step, (lane / SIDE) as i64 * step);
+                (first + across * x + down * y) >> self.shift
+            })
+        })
     }
 }
 
-/// The samples of one ray that lie in the domain: numbers `first..end`, and where the first of them is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Samples {
-    /// Number of the first sample.
-    pub first: i64,
-    /// One past the number of the last.
-    pub end: i64,
-    /// Fixed-point voxel index of sample `first`.
-    pub at: I64Vec3,
+/// Where the sixteen rays of a tile are, side by side on each axis; ray n is the one at `(n mod 4, n / 4)`.
+#[derive(Debug, Clone)]
+pub struct Tile {
+    /// Fixed-point voxel index at sample `middle`.
+    pub at: [[i64; LANES]; 3],
     /// From each sample to the next.
-    pub stride: Stride,
+    pub step: [[i64; LANES]; 3],
+    /// The sample that `at` is of.
+    pub middle: i64,
+    /// Outside these samples, `[first, end)`, all rays are outside the grid, or before the eye.
+    pub some: [i64; 2],
+    /// At these, which may be none, all are inside.
+    pub all: [i64; 2],
+}
+
+impl Default for Tile {
+    /// Rays that are nowhere.
+    fn default() -> Self {
+        let none = [[0; LANES]; 3];
+        Self { at: none, step: none, middle: 0, some: [i64::MAX, i64::MIN], all: [0, 0] }
+    }
 }
 
 impl Walk {
-    /// The walk of `camera`'s rays through `grid` with samples `distance` (world units, above 0) apart.
+    /// The walk of `camera`'s rays through `grid` with samples `distance` (world units, above 0) apart; `None` where pixels are
+    /// so much larger than voxels (a million times) that no ray can be placed among them.
     ///
     /// A step is at least 2⁻⁴⁰ and at most 2²⁰ voxels along the axis that it moves most on; the error names the remedy.
-    pub fn new(grid: &Grid, camera: &Camera, distance: f64) -> Result<Self, String> {
+    pub fn new(grid: &Grid, camera: &Camera, distance: f64) -> Result<Option<Self>, String> {
         let world_to_index = grid.world_to_index();
         let step = world_to_index.transform_vector3(camera.forward * distance);
         let most = step.abs().max_element();
@@ -96,73 +138,137 @@ impl Walk {
             ));
         }
         let last = I64Vec3::from(grid.size.map(|n| ((n - 1) as i64) << FRACTION_BITS));
-        let parallel = camera.eye.is_none().then(|| Stride::new(step));
+        let center = grid.corners().into_iter().sum::<DVec3>() / 8.0;
+        let middle = (camera.depth(center) / distance).floor() as i64;
+        let depth = (middle as f64 + 0.5) * distance;
+        let place = |window| world_to_index.transform_point3(camera.ray(window).at(depth));
+        let go = |window| world_to_index.transform_vector3(camera.ray(window).along * distance);
+        let is_parallel = camera.eye.is_none();
+        let places = Affine::new(place, camera.size);
+        let steps =
+            if is_parallel { Some(Affine::constant(step)) } else { Affine::new(go, camera.size) };
         let nearest = camera.eye.map_or(i64::MIN, |eye| (-eye / distance).floor() as i64);
-        Ok(Self { world_to_index, distance, last, parallel, nearest })
+        let walk = |(places, steps)| Self { places, steps, middle, last, nearest, is_parallel };
+        Ok(places.zip(steps).map(walk))
     }
 
-    /// The samples in the domain of a ray, from the slab on that the eye is in; `None` if there are none.
-    #[must_use]
-    pub fn enter(&self, ray: &Ray) -> Option<Samples> {
-        let stride = self.parallel.unwrap_or_else(|| {
-            Stride::new(self.world_to_index.transform_vector3(ray.along * self.distance))
-        });
-        let start = self.world_to_index.transform_point3(ray.at(0.5 * self.distance));
-        // The interval in steps from `start`, in floating point, is widened by a step and then cut exactly.
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for axis in 0..3 {
-            let (from, step) = (start[axis], stride.step[axis] as f64 / UNIT);
-            let last = (self.last[axis] >> FRACTION_BITS) as f64;
-            if stride.step[axis] == 0 {
-                if !(0.0..=last).contains(&from) {
-                    return None;
-                }
-            } else {
-                let (a, b) = (-from / step, (last - from) / step);
-                low = low.max(a.min(b));
-                high = high.min(a.max(b));
+    /// The rays of a tile of positions `step` apart, the first of which is `first`, counted from the middle of pixel (0, 0).
+    #[inline]
+    pub fn enter(&self, first: [i64; 2], step: i64, tile: &mut Tile) {
+        tile.at = self.places.tile(first, step);
+        tile.step = self.steps.tile(first, step);
+        tile.middle = self.middle;
+        let last = self.last.as_dvec3() / UNIT;
+        let ray = |lane: usize| {
+            let of = |triples: &[[i64; LANES]; 3]| {
+                DVec3::from(std::array::from_fn(|axis| triples[axis][lane] as f64)) / UNIT
+            };
+            [of(&tile.at), of(&tile.step)]
+        };
+        let mut whole = Within::NOWHERE;
+        if self.is_parallel {
+            // Places are affine over the tile: the greatest and the least are at its corners.
+            let corners = [0, SIDE - 1, LANES - SIDE, LANES - 1].map(|lane| ray(lane)[0]);
+            let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
+            let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
+            whole.join(Within::new([low, high], ray(0)[1], last));
+        } else {
+            for [at, step] in (0..LANES).map(ray) {
+                whole.join(Within::new([at, at], step, last));
             }
         }
-        if low > high + 2.0 || low.abs() > 1e15 || high.abs() > 1e15 {
-            return None;
-        }
-        let samples = self.cut(start, stride, low.floor() as i64 - 1, high.ceil() as i64 + 2)?;
-        samples.from(self.nearest)
+        let [some, all] = whole.samples(self.middle);
+        tile.some = [some[0].max(self.nearest), some[1]];
+        tile.all = [all[0].max(self.nearest), all[1]];
     }
 
-    /// How long a ray's way through a slab is, against that of a ray on the line of sight: 1 or more, exactly 1 for
-    /// parallel rays.
+    /// Whether a ray of a tile is in the grid at a sample.
     #[must_use]
-    pub fn stretch(&self, ray: &Ray) -> f64 {
-        if self.parallel.is_some() { 1.0 } else { ray.along.length() }
+    pub fn holds(&self, tile: &Tile, lane: usize, k: i64) -> bool {
+        let inside = |axis: usize| (0..=self.last[axis]).contains(&tile.place(axis, lane, k));
+        k >= self.nearest && (0..3).all(inside)
     }
 
-    /// Exactly the samples of `first..end` that are inside, positions counted from the first of them.
-    fn cut(&self, start: DVec3, stride: Stride, first: i64, end: i64) -> Option<Samples> {
-        let Stride { step, .. } = stride;
-        let middle = first + (end - first) / 2;
-        let place = start + (step.as_dvec3() / UNIT) * middle as f64;
-        let place = (place * UNIT).round().as_i64vec3();
-        let at = |k: i64| place + step * (k - middle);
-        let inside = |k: i64| {
-            let at = at(k);
-            at.cmpge(I64Vec3::ZERO).all() && at.cmple(self.last).all()
-        };
-        let first = (first..end.min(first + 6)).find(|&k| inside(k))?;
-        let last = (first.max(end - 6)..end).rev().find(|&k| inside(k))?;
-        Some(Samples { first, end: last + 1, at: at(first), stride })
+    /// Whether rays are parallel.
+    #[must_use]
+    pub fn is_parallel(&self) -> bool {
+        self.is_parallel
     }
 }
 
-impl Samples {
-    /// Those of number `first` and above; `None` if there are none.
+impl Tile {
+    /// The fixed-point voxel index of a ray at a sample, on one axis.
     #[must_use]
-    pub fn from(self, first: i64) -> Option<Self> {
-        if first <= self.first {
-            return Some(self);
+    #[inline]
+    pub fn place(&self, axis: usize, lane: usize, k: i64) -> i64 {
+        let steps = k.wrapping_sub(self.middle);
+        self.at[axis][lane].wrapping_add(self.step[axis][lane].wrapping_mul(steps))
+    }
+
+    /// Whether there is no sample at which a ray may be in the grid.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.some[0] >= self.some[1]
+    }
+}
+
+/// At which steps from the middle some of a bundle of rays may be in the grid, and all are for certain.
+#[derive(Clone, Copy)]
+struct Within {
+    some: [f64; 2],
+    all: [f64; 2],
+}
+
+impl Within {
+    /// That of no ray.
+    const NOWHERE: Self =
+        Self { some: [f64::INFINITY, f64::NEG_INFINITY], all: [f64::NEG_INFINITY, f64::INFINITY] };
+
+    /// That of rays which lie between `low` and `high` at step 0 and go by `step`, in voxels.
+    fn new([low, high]: [DVec3; 2], step: DVec3, last: DVec3) -> Self {
+        let (mut some, mut all) = ([f64::NEG_INFINITY, f64::INFINITY], Self::NOWHERE.all);
+        let cut = |range: &mut [f64; 2], ends: [f64; 2]| {
+            *range = [range[0].max(ends[0]), range[1].min(ends[1])];
+        };
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        for axis in 0..3 {
+            let (low, high, step, last) = (low[axis], high[axis], step[axis], last[axis]);
+            if step == 0.0 {
+                if high < 0.0 || low > last {
+                    cut(&mut some, none);
+                }
+                if low < 0.0 || high > last {
+                    cut(&mut all, none);
+                }
+            } else if step > 0.0 {
+                cut(&mut some, [-high / step, (last - low) / step]);
+                cut(&mut all, [-low / step, (last - high) / step]);
+            } else {
+                cut(&mut some, [(last - low) / step, -high / step]);
+                cut(&mut all, [(last - high) / step, -low / step]);
+            }
         }
-        let at = self.at + self.stride.step * first.min(self.end).saturating_sub(self.first);
-        (first < self.end).then_some(Self { first, at, ..self })
+        Self { some, all }
+    }
+
+    /// Takes rays in, of which there was none or some.
+    fn join(&mut self, other: Self) {
+        if other.some[0] <= other.some[1] + 2.0 {
+            self.some = [self.some[0].min(other.some[0]), self.some[1].max(other.some[1])];
+        }
+        self.all = [self.all[0].max(other.all[0]), self.all[1].min(other.all[1])];
+    }
+
+    /// The samples `[first, end)` of both, a step more than rounding asks for.
+    fn samples(self, middle: i64) -> [[i64; 2]; 2] {
+        if self.some[0] > self.some[1] + 2.0 || self.some.iter().any(|step| step.abs() > 1e15) {
+            return [[i64::MAX, i64::MIN], [0, 0]];
+        }
+        let [first, end] = [self.some[0].floor() - 1.0, self.some[1].ceil() + 2.0];
+        let some = [first, end].map(|step| middle + step as i64);
+        let [first, end] = [self.all[0].ceil() + 1.0, self.all[1].floor()];
+        let all = if first < end { [first, end].map(|step| middle + step as i64) } else { [0, 0] };
+        [some, all]
     }
 }
 

@@ -14,7 +14,8 @@ use crate::schedule::Product;
 
 /// Cells along one edge of a brick.
 pub const CELLS: usize = 8;
-const ROW: usize = CELLS + 1;
+/// Texels along one edge of a brick.
+pub const ROW: usize = CELLS + 1;
 /// Texels of a brick.
 pub const TEXELS: usize = ROW * ROW * ROW;
 /// The table's entry for a brick that is not stored.
@@ -27,11 +28,18 @@ pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
     /// without opacity are stepped over.
     fn store(channels: Vec4) -> Self;
+    /// The channels of two texels, as stored numbers.
+    fn channels(pair: [Self; 2]) -> [f32; 8];
     /// What a stored number is multiplied by.
     const SCALE: f32;
 }
 
 impl Texel for [f32; 4] {
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
+        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
+    }
     fn load(self) -> Vec4 {
         Vec4::from_array(self)
     }
@@ -42,6 +50,11 @@ impl Texel for [f32; 4] {
 }
 
 impl Texel for [u16; 4] {
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
+        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f32::from)
+    }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
     }
@@ -53,6 +66,11 @@ impl Texel for [u16; 4] {
 }
 
 impl Texel for [u8; 4] {
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
+        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f32::from)
+    }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
     }
@@ -122,6 +140,13 @@ impl<T: Texel> Texels<T> {
         self.0.counts
     }
 
+    /// The place in the table of the brick around a cell.
+    #[must_use]
+    pub fn entry(&self, cell: [usize; 3]) -> u32 {
+        let [x, y, z] = cell.map(|n| n / CELLS);
+        ((z * self.counts()[1] + y) * self.counts()[0] + x) as u32
+    }
+
     /// For each brick of the grid, x fastest: its number among the stored ones, or [`EMPTY`].
     #[must_use]
     pub fn table(&self) -> &[u32] {
@@ -180,14 +205,26 @@ pub struct TexelSlices<'a, T> {
     bricks: &'a [[T; TEXELS]],
 }
 
-impl<T: Texel> TexelSlices<'_, T> {
-    /// The place in the table of the brick around a cell, and what the table says there.
+impl<'a, T: Texel> TexelSlices<'a, T> {
+    /// Bricks on each axis.
     #[must_use]
     #[inline]
-    pub fn brick(self, cell: [usize; 3]) -> (usize, u32) {
-        let [x, y, z] = [cell[0] / CELLS, cell[1] / CELLS, cell[2] / CELLS];
-        let entry = (z * self.counts[1] + y) * self.counts[0] + x;
-        (entry, self.table[entry])
+    pub fn counts(self) -> [usize; 3] {
+        self.counts
+    }
+
+    /// The number of a brick among the stored ones, by its place in the table; [`EMPTY`] outside the table too.
+    #[must_use]
+    #[inline]
+    pub fn stored(self, entry: u32) -> u32 {
+        self.table.get(entry as usize).copied().unwrap_or(EMPTY)
+    }
+
+    /// The texels of a stored brick, x fastest; zeros for [`EMPTY`].
+    #[must_use]
+    #[inline]
+    pub fn texels(self, brick: u32) -> &'a [T; TEXELS] {
+        &self.bricks[(brick as usize).min(self.bricks.len() - 1)]
     }
 
     /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
@@ -197,7 +234,7 @@ impl<T: Texel> TexelSlices<'_, T> {
     #[must_use]
     #[inline]
     pub fn sample(self, brick: u32, cell: [usize; 3], at: Vec3) -> Vec4 {
-        let texels = &self.bricks[(brick as usize).min(self.bricks.len() - 1)];
+        let texels = self.texels(brick);
         let first = ((cell[2] & 7) * ROW + (cell[1] & 7)) * ROW + (cell[0] & 7);
         let row = |offset: usize| {
             let pair = &texels[first + offset..first + offset + 2];

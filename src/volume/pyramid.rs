@@ -1,16 +1,24 @@
 //! The pyramid of binary volumes (paper §6): where the gel is empty, and how far.
 //!
-//! Level 0 has a bit a cell of 2 × 2 × 2 neighbouring voxels; a cell of level m + 1 covers 2³ cells of level m. Levels 0
-//! to 2 are read off the 8³ bits of a stored brick, level 3 is the brick, and of the levels above only what a ray asks
-//! is kept: for each brick, the highest level whose cell around it is empty.
+//! Level 0 has a bit a cell of 2 × 2 × 2 neighbouring voxels, kept for stored bricks. Of the levels above, what a packet of
+//! rays asks is kept: for each block of 4³ cells (level 2), how many blocks away the nearest interesting one is (`blocks`). So
+//! a leap is as long as the room around it and not as the aligned cell that it begins in, and it serves packets of any width.
+//! Near what is interesting, a bit a cell tells whether a packet around it can meet any (`near`).
+
+mod blocks;
+mod near;
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use crate::schedule::Product;
-use crate::volume::gel::{CELLS, EMPTY, Texel, Texels};
+use crate::volume::gel::{CELLS, Texel, Texels};
+use blocks::FullBlocks;
+use near::Near;
 
+/// Cells along the edge of a block that a distance is known for.
+pub const BLOCK: usize = 4;
 /// What steps over empty gel. Shared by pointer, equality is identity.
 #[derive(Debug, Clone)]
 pub struct Pyramid(Arc<Levels>);
@@ -20,7 +28,9 @@ impl Product for Pyramid {}
 #[derive(Debug)]
 struct Levels {
     cells: Vec<[u64; CELLS]>,
-    empty: Vec<u8>,
+    blocks: [usize; 3],
+    distances: Vec<u8>,
+    near: Near,
 }
 
 impl PartialEq for Pyramid {
@@ -29,40 +39,31 @@ impl PartialEq for Pyramid {
     }
 }
 
-/// The level whose cells are bricks.
-pub const BRICK_LEVEL: u32 = 3;
-
 impl Pyramid {
     /// The pyramid of some gel.
     #[must_use]
     pub fn of<T: Texel>(gel: &Texels<T>) -> Self {
-        let cells = (0..gel.bricks().len() as u32)
+        let cells: Vec<_> = (0..gel.bricks().len() as u32)
             .into_par_iter()
             .map(|brick| gel.interesting_cells(brick))
             .collect();
-        let mut empty: Vec<u8> = vec![0; gel.table().len()];
-        let mut full: Vec<bool> = gel.table().iter().map(|&entry| entry != EMPTY).collect();
-        let mut counts = gel.counts();
-        for level in BRICK_LEVEL.. {
-            note_level(&mut empty, gel.counts(), &full, counts, level);
-            if counts == [1; 3] {
-                break;
-            }
-            (full, counts) = coarser(&full, counts);
-        }
-        Self(Arc::new(Levels { cells, empty }))
+        let full = FullBlocks::of(gel.counts(), gel.table(), &cells);
+        let near = Near::of(gel.counts(), gel.table(), &cells);
+        Self(Arc::new(Levels { cells, blocks: full.counts, distances: full.distances(), near }))
     }
 
     /// The arrays behind the pointer, for rays.
     #[must_use]
     pub fn slices(&self) -> PyramidSlices<'_> {
-        PyramidSlices { cells: &self.0.cells, empty: &self.0.empty }
+        let Levels { cells, blocks, distances, near } = &*self.0;
+        PyramidSlices { cells, blocks: *blocks, distances, near }
     }
 
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        (self.0.cells.len() * size_of::<[u64; CELLS]>() + self.0.empty.len()) as u64
+        let cells = self.0.cells.len() * size_of::<[u64; CELLS]>();
+        (cells + self.0.distances.len()) as u64 + self.0.near.bytes()
     }
 }
 
@@ -70,70 +71,46 @@ impl Pyramid {
 #[derive(Debug, Clone, Copy)]
 pub struct PyramidSlices<'a> {
     cells: &'a [[u64; CELLS]],
-    empty: &'a [u8],
+    blocks: [usize; 3],
+    distances: &'a [u8],
+    near: &'a Near,
 }
 
-impl<'a> PyramidSlices<'a> {
-    /// The interesting cells of a stored brick: bit `8 y + x` of word `z`.
+impl PyramidSlices<'_> {
+    /// Which bits tell of interesting cells within `reach` cells of another, for [`is_near`](Self::is_near); `None` where none
+    /// reach so far.
+    #[must_use]
+    pub fn reaching(self, reach: f64) -> Option<usize> {
+        self.near.reaching(reach)
+    }
+
+    /// Whether an interesting cell may be within reach of a cell; `None` if there is none near its brick at all.
     #[must_use]
     #[inline]
-    pub fn cells(self, brick: u32) -> &'a [u64; CELLS] {
-        &self.cells[brick as usize]
+    pub fn is_near(self, reaching: usize, cell: [i64; 3]) -> Option<bool> {
+        self.near.holds(reaching, cell)
     }
 
-    /// Whether a cell, counted from the volume's first, is interesting; `brick` is the stored brick around it, or [`EMPTY`].
+    /// Whether cell `(z · 8 + y) · 8 + x`, each in 0..8, of a stored brick is interesting; of [`EMPTY`](crate::volume::gel::EMPTY), none is.
     #[must_use]
     #[inline]
-    pub fn is_interesting(self, brick: u32, [x, y, z]: [usize; 3]) -> bool {
-        let cells = self.cells.get(brick as usize);
-        cells.is_some_and(|cells| cells[z % CELLS] >> (y % CELLS * CELLS + x % CELLS) & 1 == 1)
+    pub fn is_interesting(self, brick: u32, cell: u32) -> bool {
+        let words = self.cells.get(brick as usize);
+        words.is_some_and(|words| words[(cell >> 6) as usize % CELLS] >> (cell & 63) & 1 == 1)
     }
 
-    /// For the brick at `entry` of the gel's table, which is not stored: the highest empty level around it, at least 3.
+    /// How many blocks lie between the one around a cell and the nearest with an interesting cell, along the axis on which
+    /// they are farthest apart: 0 if it has one itself; at most 31, which stands for more. A cell outside the volume counts
+    /// as the nearest one inside.
     #[must_use]
     #[inline]
-    pub fn empty_level(self, entry: usize) -> u32 {
-        u32::from(self.empty[entry])
+    pub fn distance(self, cell: [i64; 3]) -> u8 {
+        let block = |axis: usize| {
+            ((cell[axis] >> BLOCK.trailing_zeros()).max(0) as usize).min(self.blocks[axis] - 1)
+        };
+        let at = (block(2) * self.blocks[1] + block(1)) * self.blocks[0] + block(0);
+        self.distances.get(at).copied().unwrap_or(0)
     }
-}
-
-/// The highest level, 0 to 2, whose cell around `cell` (0..8 on each axis) of a brick holds nothing interesting; the
-/// level-0 cell itself must be empty.
-#[must_use]
-#[inline]
-pub fn empty_level_within(cells: &[u64; CELLS], cell: [usize; 3]) -> u32 {
-    let [x, y, z] = [cell[0] % CELLS, cell[1] % CELLS, cell[2] % CELLS];
-    let four = (0x0f0f_0f0f_u64 << (x & 4)) << (8 * (y & 4));
-    let slab = &cells[z & 4..(z & 4) + 4];
-    if (slab[0] | slab[1] | slab[2] | slab[3]) & four == 0 {
-        return 2;
-    }
-    let two = (0x0303_u64 << (x & 6)) << (8 * (y & 6));
-    u32::from((cells[z & 6] | cells[z | 1]) & two == 0)
-}
-
-/// Marks with `level` every brick that lies in an empty cell of that level.
-fn note_level(empty: &mut [u8], bricks: [usize; 3], full: &[bool], counts: [usize; 3], level: u32) {
-    let shift = level - BRICK_LEVEL;
-    for (at, noted) in empty.iter_mut().enumerate() {
-        let [x, y, z] = [at % bricks[0], at / bricks[0] % bricks[1], at / (bricks[0] * bricks[1])]
-            .map(|b| b >> shift);
-        if !full[(z * counts[1] + y) * counts[0] + x] {
-            *noted = level as u8;
-        }
-    }
-}
-
-/// The next level: a cell is full if one of its eight children is.
-fn coarser(full: &[bool], counts: [usize; 3]) -> (Vec<bool>, [usize; 3]) {
-    let next = counts.map(|n| n.div_ceil(2));
-    let mut made = vec![false; next.iter().product()];
-    for (at, _) in full.iter().enumerate().filter(|(_, full)| **full) {
-        let [x, y, z] = [at % counts[0], at / counts[0] % counts[1], at / (counts[0] * counts[1])]
-            .map(|c| c / 2);
-        made[(z * next[1] + y) * next[0] + x] = true;
-    }
-    (made, next)
 }
 
 #[cfg(test)]
@@ -143,33 +120,44 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_highest_empty_level_grows_away_from_the_only_full_brick() {
+    fn distances_are_those_to_the_nearest_block_that_is_not_empty() {
+        let full = [[5_usize, 9, 30], [270, 2, 3], [100, 12, 17]];
+        let size = [300, 16, 33];
         let fill = |first: [usize; 3], row: &mut [Vec4]| {
-            if first == [0, 0, 0] {
-                row[0] = Vec4::ONE;
+            for (i, texel) in row.iter_mut().enumerate() {
+                if full.contains(&[first[0] + i, first[1], first[2]]) {
+                    *texel = Vec4::ONE;
+                }
             }
         };
-        let gel = Texels::<[f32; 4]>::make([64, 32, 32], |brick| brick == [0, 0, 0], fill);
-        let pyramid = Pyramid::of(&gel);
-        let level =
-            |x: usize, y: usize, z: usize| pyramid.slices().empty_level((z * 4 + y) * 8 + x);
-        assert_eq!([level(1, 0, 0), level(2, 0, 0), level(4, 0, 0), level(0, 0, 3)], [3, 4, 5, 4]);
-        assert_eq!(pyramid.slices().cells(0), &[1, 0, 0, 0, 0, 0, 0, 0]);
+        let pyramid = Pyramid::of(&Texels::<[f32; 4]>::make(size, |_| true, fill));
+        // A voxel is a corner of eight cells.
+        let cells = full.iter().flat_map(|voxel| {
+            (0..8).map(|n| std::array::from_fn(|axis| voxel[axis] - (n >> axis & 1)))
+        });
+        let blocks: Vec<[usize; 3]> = cells.map(|cell: [usize; 3]| cell.map(|c| c / 4)).collect();
+        for cell in
+            (0..300_usize).step_by(3).flat_map(|x| (0..48).map(move |n| [x, n % 16, n * 2 / 3]))
+        {
+            let to = |block: &[usize; 3]| {
+                (0..3).map(|axis| (cell[axis] / 4).abs_diff(block[axis])).max().unwrap_or(0)
+            };
+            let expected = blocks.iter().map(to).min().unwrap_or(0).min(31);
+            let found = pyramid.slices().distance(cell.map(|n| n as i64));
+            assert_eq!(usize::from(found), expected, "{cell:?}");
+        }
+        assert_eq!(pyramid.slices().distance([-9, 9, 90]), pyramid.slices().distance([0, 9, 39]));
     }
 
     #[test]
-    fn levels_within_a_brick_are_empty_exactly_where_no_bit_is_set() {
-        let mut cells = [0_u64; CELLS];
-        cells[5] = 1 << (8 * 2 + 3);
-        for (x, y, z) in (0..512).map(|i| (i % 8, i / 8 % 8, i / 64)) {
-            if (x, y, z) == (3, 2, 5) {
-                continue;
+    fn a_voxel_makes_the_cells_around_it_interesting() {
+        let fill = |first: [usize; 3], row: &mut [Vec4]| {
+            if first == [0, 1, 0] {
+                row[2] = Vec4::ONE;
             }
-            let shares = |level: u32| {
-                (x >> level, y >> level, z >> level) == (3 >> level, 2 >> level, 5 >> level)
-            };
-            let expected = (1..=2).rev().find(|&level| !shares(level)).unwrap_or(0);
-            assert_eq!(empty_level_within(&cells, [x, y, z]), expected, "{x} {y} {z}");
-        }
+        };
+        let gel = Texels::<[f32; 4]>::make([8; 3], |_| true, fill);
+        let expected = [1 << 1 | 1 << 2 | 1 << 9 | 1 << 10, 0, 0, 0, 0, 0, 0, 0];
+        assert_eq!(Pyramid::of(&gel).0.cells, [expected]);
     }
 }

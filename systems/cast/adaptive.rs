@@ -3,16 +3,15 @@
 //! Rays are first cast on a coarse grid of positions. A square region whose corners differ in C is split into four, down
 //! to a ray a pixel; below that only where the ranges of both C_G and C_A say that a polygon's edge is seen, at that level
 //! and at those before: C knows textures, and where a texture happens to split a region tells nothing of edges. Level after
-//! level, over bands of beams: which regions split is decided from the level before alone, so that the picture does not
+//! level, over bands of packets: which regions split is decided from the level before alone, so that the picture does not
 //! depend on bands or threads.
 
-use glam::DVec2;
 use rayon::prelude::*;
 
 use super::band::{Band, cut};
-use super::beams::{Beams, SIDE};
+use super::lanes::{LANES, Packet, SIDE, each};
 use super::level::Level;
-use super::targets::{Caster, Outlines, RayColors, Target};
+use super::targets::{Caster, Outlines, RayColors};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::schedule::Watch;
@@ -147,18 +146,18 @@ impl<'a, C: Caster> Refinement<'a, C> {
         wanted: impl Fn(usize, usize) -> bool + Sync,
         watch: &Watch,
     ) -> Result<(), Error> {
-        let (beams, caster) = (Beams::new(self.layout), self.caster);
+        let (layout, caster) = (self.layout, self.caster);
         let colors = std::iter::once(&mut self.full).chain(self.edges.iter_mut().flatten());
-        let mut bands = cut(&beams, colors.collect(), &self.opened, &mut self.cast);
+        let mut bands = cut(&layout, step, colors.collect(), &self.opened, &mut self.cast);
         watch.expect(bands.len() as u64);
         let span = tracing::Span::current();
         let counts: Vec<Counts> = bands
             .par_iter_mut()
             .map(|band| {
                 let _inside = span.enter();
-                let _row_of_beams = tracing::trace_span!("band", number = band.number).entered();
+                let _rows = tracing::trace_span!("band", number = band.number).entered();
                 watch.check()?;
-                cast_band(band, &beams, step, &wanted, caster);
+                cast_band(band, &layout, step, &wanted, caster);
                 watch.advance();
                 Ok(band.counts)
             })
@@ -170,35 +169,25 @@ impl<'a, C: Caster> Refinement<'a, C> {
     }
 }
 
-/// Casts the wanted rays of a band, beam by beam.
+/// Casts the wanted rays of a band, packet by packet.
 fn cast_band<C: Caster>(
     band: &mut Band<'_>,
-    beams: &Beams,
+    layout: &Layout,
     step: usize,
     wanted: &impl Fn(usize, usize) -> bool,
     caster: &C,
 ) {
     let mut scratch = C::Scratch::default();
-    let mut positions = Vec::with_capacity(SIDE * SIDE);
-    let (mut targets, mut rays) =
-        (Vec::with_capacity(SIDE * SIDE), Vec::with_capacity(SIDE * SIDE));
-    let shift = step.trailing_zeros();
-    for x in 0..beams.counts[0] {
-        let beam = band.number * beams.counts[0] + x;
-        band.positions(&beams.layout, x, step, &mut positions);
-        positions.retain(|[i, j]| wanted(i >> shift, j >> shift));
-        targets.clear();
-        targets.extend(positions.iter().map(|&[i, j]| {
-            let window = DVec2::new(beams.layout.window(i), beams.layout.window(j));
-            Target { beam, window, step }
-        }));
-        rays.clear();
-        rays.resize(targets.len(), RayColors::default());
-        caster.cast(&targets, &mut rays, &mut scratch, &mut band.counts);
-        for (&[i, j], ray) in positions.iter().zip(&rays) {
-            band.write(&beams.layout, i, j, ray);
+    let mut rays = [RayColors::default(); LANES];
+    let margin = layout.margin as i64;
+    band.packets(layout, step, wanted, |band, [i, j], wanted| {
+        let first = [i as i64 - margin, j as i64 - margin];
+        let packet = Packet { first, step, wanted };
+        caster.cast(&packet, &mut rays, &mut scratch, &mut band.counts);
+        for lane in each(wanted) {
+            band.write(layout, i + lane % SIDE * step, j + lane / SIDE * step, &rays[lane]);
         }
-    }
+    });
 }
 
 /// The greatest range of any channel over four corners.

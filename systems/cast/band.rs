@@ -1,16 +1,20 @@
-//! Bands: the rows of the sample array that one row of beams owns, so that bands are written side by side.
+//! Bands: rows of the sample array, as high as a row of packets, so that bands are written side by side.
 
-use super::beams::{Beams, SIDE};
+use super::lanes::{LANES, Lanes, SIDE};
 use super::targets::RayColors;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
-/// Rows of blocks in a band.
-const BLOCKS: usize = SIDE / POSITIONS;
+/// The least rows of positions in a band.
+const LEAST: usize = 16;
 
-/// The part of a sample array that one row of beams owns.
+/// The part of a sample array that one row of packets of the coarser levels, or some of the finer, lies in.
 pub struct Band<'b> {
-    /// Which row of beams.
+    /// Which of the bands.
     pub number: usize,
+    /// Its first position down.
+    top: usize,
+    /// One past its last.
+    bottom: usize,
     /// What was counted in it.
     pub counts: Counts,
     /// C, and C_A and C_G where they are kept.
@@ -26,24 +30,29 @@ struct Part<'b> {
     fine: &'b mut [[[f32; 4]; POSITIONS * POSITIONS]],
 }
 
-/// Cuts the colours of a sample array into bands.
+/// Cuts the colours of a sample array into bands for packets of rays `step` positions apart.
 pub fn cut<'b>(
-    beams: &Beams,
+    layout: &Layout,
+    step: usize,
     colors: Vec<&'b mut Colors>,
     opened: &'b [u32],
     cast: &'b mut [u16],
 ) -> Vec<Band<'b>> {
-    let rows = BLOCKS * beams.layout.blocks()[0];
+    let height = (SIDE * step).max(LEAST);
+    let rows = height / POSITIONS * layout.blocks()[0];
     let mut left: Vec<Part<'b>> = colors
         .into_iter()
         .map(|Colors { lattice, fine }| Part { lattice: &mut lattice[..], fine: &mut fine[..] })
         .collect();
     let mut first = 0;
-    let mut bands = Vec::with_capacity(beams.counts[1]);
+    let mut bands = Vec::with_capacity(opened.len().div_ceil(rows));
+    let down = layout.positions()[1];
     for (number, (opened, cast)) in opened.chunks(rows).zip(cast.chunks_mut(rows)).enumerate() {
         let fine = opened.iter().filter(|&&block| block != NONE).count();
         let colors = left.iter_mut().map(|part| part.take(opened.len(), fine)).collect();
-        bands.push(Band { number, counts: Counts::default(), colors, opened, first, cast });
+        let (top, bottom) = (number * height, ((number + 1) * height).min(down));
+        let counts = Counts::default();
+        bands.push(Band { number, top, bottom, counts, colors, opened, first, cast });
         first += fine as u32;
     }
     bands
@@ -60,29 +69,39 @@ impl Part<'_> {
 }
 
 impl Band<'_> {
-    /// Puts into `into` the positions of the lattice of `step` positions in beam `x` of the band, block by block or row by
-    /// row; those between the blocks' first positions in opened blocks alone.
-    pub fn positions(&self, layout: &Layout, x: usize, step: usize, into: &mut Vec<[usize; 2]>) {
-        into.clear();
-        let ([across, down], first) = (layout.positions(), [x * SIDE, self.number * SIDE]);
-        let end = [(first[0] + SIDE).min(across), (first[1] + SIDE).min(down)];
-        if step >= POSITIONS {
-            return lattice(first, end, step, into);
-        }
-        let row = layout.blocks()[0];
-        for j in (first[1]..end[1]).step_by(POSITIONS) {
-            for i in (first[0]..end[0]).step_by(POSITIONS) {
-                if self.opened[(j - first[1]) / POSITIONS * row + i / POSITIONS] != NONE {
-                    let end = [(i + POSITIONS).min(across), (j + POSITIONS).min(down)];
-                    lattice([i, j], end, step, into);
+    /// Calls `cast` with every packet of rays `step` positions apart of which some are `wanted` (a position of their lattice);
+    /// those between the blocks' first positions in opened blocks alone.
+    pub fn packets(
+        &mut self,
+        layout: &Layout,
+        step: usize,
+        wanted: impl Fn(usize, usize) -> bool,
+        mut cast: impl FnMut(&mut Self, [usize; 2], Lanes),
+    ) {
+        let (across, shift) = (layout.positions()[0], step.trailing_zeros());
+        for j in (self.top..self.bottom).step_by(SIDE * step) {
+            for i in (0..across).step_by(SIDE * step) {
+                let mut lanes = 0;
+                for lane in 0..LANES {
+                    let (x, y) = (i + lane % SIDE * step, j + lane / SIDE * step);
+                    let held = x < across && y < self.bottom && wanted(x >> shift, y >> shift);
+                    let held = held && (step >= POSITIONS || self.is_open(layout, x, y));
+                    lanes |= Lanes::from(held) << lane;
+                }
+                if lanes != 0 {
+                    cast(self, [i, j], lanes);
                 }
             }
         }
     }
 
+    fn is_open(&self, layout: &Layout, i: usize, j: usize) -> bool {
+        self.opened[layout.place(i, j - self.top).1] != NONE
+    }
+
     /// Keeps what a ray at a position of the band saw.
     pub fn write(&mut self, layout: &Layout, i: usize, j: usize, ray: &RayColors) {
-        let (within, block) = layout.place(i, j - self.number * SIDE);
+        let (within, block) = layout.place(i, j - self.top);
         for (part, color) in self.colors.iter_mut().zip([ray.full, ray.attenuated, ray.geometric]) {
             if within == 0 {
                 part.lattice[block] = color;
@@ -92,13 +111,5 @@ impl Band<'_> {
         }
         self.cast[block] |= 1 << within;
         self.counts.rays += 1;
-    }
-}
-
-/// The positions from `first` to before `end` that are multiples of `step`, row by row.
-fn lattice(first: [usize; 2], end: [usize; 2], step: usize, into: &mut Vec<[usize; 2]>) {
-    let from = first.map(|n| n.next_multiple_of(step));
-    for j in (from[1]..end[1]).step_by(step) {
-        into.extend((from[0]..end[0]).step_by(step).map(|i| [i, j]));
     }
 }

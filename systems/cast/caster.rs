@@ -1,18 +1,14 @@
 //! Casting the rays that refinement asks for, in packets of neighbours.
 
-use super::lanes::{LANES, Packet, first};
+use super::lanes::{LANES, Packet, each};
 use super::march::{Gathering, Hit, Slabs, geometric, march};
 use super::media::Media;
 use super::polygons::Polygons;
-use super::targets::{Caster, RayColors, Target};
-use crate::view::camera::Camera;
-use crate::view::ray::Ray;
+use super::targets::{Caster, RayColors};
 use crate::view::samples::Counts;
 
 /// Casts rays, a packet at a time.
 pub struct BeamCaster<'a, M> {
-    /// The view's frame.
-    pub camera: &'a Camera,
     /// What rays may meet of polygons.
     pub polygons: Polygons,
     /// What all rays have in common.
@@ -26,16 +22,13 @@ pub struct BeamCaster<'a, M> {
 /// What a thread needs for a packet, kept from one to the next.
 pub struct Scratch<E> {
     entered: E,
-    rays: Vec<Ray>,
-    beams: Vec<usize>,
     /// What the rays meet, one after the other.
     hits: Vec<Hit>,
 }
 
 impl<E: Default> Default for Scratch<E> {
     fn default() -> Self {
-        let (rays, beams, hits) = (Vec::new(), Vec::new(), Vec::new());
-        Self { entered: E::default(), rays, beams, hits }
+        Self { entered: E::default(), hits: Vec::new() }
     }
 }
 
@@ -44,51 +37,42 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
 
     fn cast(
         &self,
-        targets: &[Target],
-        colors: &mut [RayColors],
+        packet: &Packet,
+        colors: &mut [RayColors; LANES],
         scratch: &mut Self::Scratch,
         counts: &mut Counts,
     ) {
-        for (targets, colors) in targets.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-            self.cast_packet(targets, colors, scratch, counts);
+        let Scratch { entered, hits } = scratch;
+        let mut range = self.media.enter(packet, entered);
+        if range[0] < range[1] {
+            range[0] = self.media.seek(entered, range[0], counts);
         }
-    }
-}
-
-impl<M: Media> BeamCaster<'_, M> {
-    fn cast_packet(
-        &self,
-        targets: &[Target],
-        colors: &mut [RayColors],
-        scratch: &mut Scratch<M::Entered>,
-        counts: &mut Counts,
-    ) {
-        let Scratch { entered, rays, beams, hits } = scratch;
-        rays.clear();
-        rays.extend(targets.iter().map(|target| self.camera.ray(target.window)));
-        beams.clear();
-        beams.extend(targets.iter().map(|target| target.beam));
-        hits.clear();
+        if range[0] >= range[1] && self.polygons.is_empty() {
+            colors.fill(RayColors::default());
+            return;
+        }
         let mut gathered = [Gathering::new([0; 2]); LANES];
+        hits.clear();
         if !self.polygons.is_empty() {
-            for (target, gathered) in targets.iter().zip(&mut gathered) {
+            for lane in each(packet.wanted) {
                 let first = hits.len();
-                self.polygons.meet(target.beam, target.window, hits);
-                *gathered = Gathering::new([first as u32, hits.len() as u32]);
+                self.polygons.meet(packet.position(lane), hits);
+                gathered[lane] = Gathering::new([first as u32, hits.len() as u32]);
             }
         }
         let own = gathered.map(|ray| ray.hits());
-        let range = self.media.enter(&Packet { rays: &rays[..], beams: &beams[..] }, entered);
         march(
             (self.media, entered, range),
             &self.slabs,
             hits,
-            |hit, lane| self.polygons.shade(hit, targets[lane]),
-            (first(targets.len()), &mut gathered),
+            |hit, lane| self.polygons.shade(hit, packet.position(lane), packet.step),
+            (packet.wanted, &mut gathered),
             counts,
         );
-        for ((color, ray), [from, to]) in colors.iter_mut().zip(&gathered).zip(own) {
+        for lane in each(packet.wanted) {
+            let (ray, [from, to]) = (&gathered[lane], own[lane]);
             let hits = &hits[from as usize..to as usize];
+            let color = &mut colors[lane];
             *color = RayColors { full: ray.full.rgba(self.slabs.stop), ..RayColors::default() };
             if !hits.is_empty() {
                 color.attenuated = ray.attenuated();

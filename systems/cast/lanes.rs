@@ -1,14 +1,12 @@
-//! Up to sixteen rays side by side: neighbours on the lattice, at the same sample at the same time.
+//! Sixteen rays side by side: a tile of four by four neighbours on the lattice, at the same sample at the same time.
 
-use crate::view::ray::Ray;
+pub use crate::view::walk::{LANES, SIDE};
 
-/// The most rays of a packet.
-pub const LANES: usize = 16;
-
-/// A set of a packet's rays: bit n is ray n.
+/// A set of a tile's rays: bit n is ray n, at `(n mod 4, n / 4)`.
 pub type Lanes = u16;
 
 /// The rays of a set, in their order.
+#[inline]
 pub fn each(mut lanes: Lanes) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lane = lanes.trailing_zeros() as usize;
@@ -19,16 +17,21 @@ pub fn each(mut lanes: Lanes) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The set of the first `count` rays.
-pub fn first(count: usize) -> Lanes {
-    (((1_u32 << count) - 1) & 0xffff) as Lanes
+/// The rays that are cast together.
+#[derive(Debug, Clone, Copy)]
+pub struct Packet {
+    /// The position of ray 0, counted from the middle of pixel (0, 0).
+    pub first: [i64; 2],
+    /// Positions from each ray to the next: what each stands for.
+    pub step: usize,
+    /// Which rays are wanted.
+    pub wanted: Lanes,
 }
 
-/// A packet as what it meets sees it.
-#[derive(Debug, Clone, Copy)]
-pub struct Packet<'p> {
-    /// Its rays, at most [`LANES`].
-    pub rays: &'p [Ray],
-    /// The numbers of the beams that they lie in, a number a ray.
-    pub beams: &'p [usize],
+impl Packet {
+    /// The position of a ray, counted from the middle of pixel (0, 0).
+    pub fn position(&self, lane: usize) -> [i64; 2] {
+        let [x, y] = [lane % SIDE, lane / SIDE].map(|n| (n * self.step) as i64);
+        [self.first[0] + x, self.first[1] + y]
+    }
 }

@@ -131,7 +131,7 @@ pub fn march<M: Media>(
     let (mut open, mut k, mut gel) = (lanes, first, i64::MIN);
     while open != 0 {
         if gel < k {
-            let found = media.seek(entered, k);
+            let found = media.seek(entered, k, counts);
             gel = if found < end { found } else { i64::MAX };
         }
         k = gel.min(next.least);

@@ -11,10 +11,10 @@ pub trait Media: Sync {
     type Entered: Default + Send;
 
     /// Lets a packet enter; the sample numbers `[first, end)` outside which none of its rays meets gel.
-    fn enter(&self, packet: &Packet<'_>, entered: &mut Self::Entered) -> [i64; 2];
+    fn enter(&self, packet: &Packet, entered: &mut Self::Entered) -> [i64; 2];
 
     /// The first sample from number `k` on that some ray may meet gel at; all before it are empty for all of them.
-    fn seek(&self, entered: &mut Self::Entered, k: i64) -> i64;
+    fn seek(&self, entered: &mut Self::Entered, k: i64, counts: &mut Counts) -> i64;
 
     /// Which of `lanes` meet gel at sample `k`, which no other sample is asked for until [`slab`](Media::slab) was.
     fn meet(&self, entered: &mut Self::Entered, k: i64, lanes: Lanes, counts: &mut Counts)
@@ -30,11 +30,11 @@ pub struct Nothing;
 impl Media for Nothing {
     type Entered = ();
 
-    fn enter(&self, _: &Packet<'_>, (): &mut ()) -> [i64; 2] {
+    fn enter(&self, _: &Packet, (): &mut ()) -> [i64; 2] {
         [i64::MAX; 2]
     }
 
-    fn seek(&self, (): &mut (), _: i64) -> i64 {
+    fn seek(&self, (): &mut (), _: i64, _: &mut Counts) -> i64 {
         i64::MAX
     }
 

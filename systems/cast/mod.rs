@@ -12,6 +12,7 @@ mod beams;
 mod caster;
 mod cue;
 mod inputs;
+mod kernel;
 mod lanes;
 mod level;
 mod march;
@@ -27,6 +28,7 @@ mod texture;
 
 use std::sync::Arc;
 
+use fearless_simd::Level;
 use hecs::{Entity, World};
 
 use crate::components::{DepthCue, Sampling, View};
@@ -116,11 +118,11 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
     let mut media = Vec::new();
     // Where dust is, nothing is stepped over; several volumes have one dust.
     let alone = dust.filter(|_| inputs.volumes.len() == 1);
-    let view = SharedView { camera, beams: &beams, slabs, cue, skips: dust.is_none() };
+    let view = SharedView { camera, slabs, cue, skips: dust.is_none(), level: Level::new() };
     for placed in &inputs.volumes {
-        media.push(view.medium(placed, alone)?);
+        media.extend(view.medium(placed, alone)?);
     }
-    let rays = Rays { camera, polygons, slabs };
+    let rays = Rays { polygons, slabs };
     match media.len() {
         0 => rays.refine(inputs, layout, &Nothing, watch),
         1 => match media.swap_remove(0) {
@@ -129,7 +131,7 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
             AnyMedium::U8(medium) => rays.refine(inputs, layout, &medium, watch),
         },
         _ => {
-            let several = Several { media, distance: slabs.distance, dust };
+            let several = Several { media, dust };
             rays.refine(inputs, layout, &several, watch)
         }
     }
@@ -157,33 +159,33 @@ fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -
 /// What the volumes of a view have in common.
 struct SharedView<'a> {
     camera: &'a Camera,
-    beams: &'a Beams,
     slabs: Slabs,
     cue: Option<Cue>,
     /// Whether empty gel is stepped over.
     skips: bool,
+    level: Level,
 }
 
-impl SharedView<'_> {
-    /// A volume as the rays of the view meet it, whatever numbers its gel is kept in.
-    fn medium<'a>(
+impl<'a> SharedView<'a> {
+    /// A volume as the rays of the view meet it, whatever numbers its gel is kept in; `None` where it is too small to be met.
+    fn medium(
         &self,
         placed: &'a PlacedGel,
         dust: Option<&'a Dust>,
-    ) -> Result<AnyMedium<'a>, Error> {
+    ) -> Result<Option<AnyMedium<'a>>, Error> {
         let Gel { lit, ambient } = &placed.gel;
         Ok(match (lit, ambient) {
-            (GelBricks::F32(lit), None) => AnyMedium::F32(self.of(placed, lit, None, dust)?),
+            (GelBricks::F32(lit), None) => self.of(placed, lit, None, dust)?.map(AnyMedium::F32),
             (GelBricks::F32(lit), Some(GelBricks::F32(ambient))) => {
-                AnyMedium::F32(self.of(placed, lit, Some(ambient), dust)?)
+                self.of(placed, lit, Some(ambient), dust)?.map(AnyMedium::F32)
             }
-            (GelBricks::U16(lit), None) => AnyMedium::U16(self.of(placed, lit, None, dust)?),
+            (GelBricks::U16(lit), None) => self.of(placed, lit, None, dust)?.map(AnyMedium::U16),
             (GelBricks::U16(lit), Some(GelBricks::U16(ambient))) => {
-                AnyMedium::U16(self.of(placed, lit, Some(ambient), dust)?)
+                self.of(placed, lit, Some(ambient), dust)?.map(AnyMedium::U16)
             }
-            (GelBricks::U8(lit), None) => AnyMedium::U8(self.of(placed, lit, None, dust)?),
+            (GelBricks::U8(lit), None) => self.of(placed, lit, None, dust)?.map(AnyMedium::U8),
             (GelBricks::U8(lit), Some(GelBricks::U8(ambient))) => {
-                AnyMedium::U8(self.of(placed, lit, Some(ambient), dust)?)
+                self.of(placed, lit, Some(ambient), dust)?.map(AnyMedium::U8)
             }
             _ => {
                 let problem = "the two parts of the gel are of different texels";
@@ -192,41 +194,40 @@ impl SharedView<'_> {
         })
     }
 
-    fn of<'a, T: Texel>(
+    fn of<T: Texel>(
         &self,
         placed: &'a PlacedGel,
         lit: &'a Texels<T>,
         ambient: Option<&'a Texels<T>>,
         dust: Option<&'a Dust>,
-    ) -> Result<Medium<'a, T>, Error> {
+    ) -> Result<Option<Medium<'a, T>>, Error> {
         let PlacedGel { grid, unit, .. } = placed;
         let distance = self.slabs.distance;
         let walk = Walk::new(grid, self.camera, distance)
             .map_err(|problem| Error::entity("view", problem))?;
         let pyramid = placed.pyramid.as_ref().filter(|_| self.skips);
-        let occupied = |pyramid| self.beams.occupied(lit, pyramid, grid, self.camera, distance);
-        Ok(Medium {
+        Ok(walk.map(|walk| Medium {
             walk,
+            camera: self.camera,
             gel: lit.slices(),
             ambient: ambient.map(Texels::slices),
             pyramid: pyramid.map(Pyramid::slices),
-            occupied: pyramid.map(occupied),
             ratio: distance / unit,
             distance,
             cue: self.cue,
             dust,
-        })
+            level: self.level,
+        }))
     }
 }
 
 /// What the rays of a view share, whatever they meet.
-struct Rays<'a> {
-    camera: &'a Camera,
+struct Rays {
     polygons: Polygons,
     slabs: Slabs,
 }
 
-impl Rays<'_> {
+impl Rays {
     fn refine<M: Media>(
         self,
         inputs: &Inputs,
@@ -239,10 +240,10 @@ impl Rays<'_> {
         // Regions down to two pixels' side are split where outlines cross them.
         let outlines = (polygons && sampling.outlines && sampling.coarsest > 4)
             .then(|| self.polygons.outlines(&layout, 8));
-        let Self { camera, polygons: faces, slabs } = self;
+        let Self { polygons: faces, slabs } = self;
         let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
         let caster =
-            BeamCaster { camera, polygons: faces, slabs, media, three_colors: supersampled };
+            BeamCaster { polygons: faces, slabs, media, three_colors: supersampled };
         let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
             .refine(watch)?;
         Ok(Samples(Arc::new(array)))

@@ -10,7 +10,7 @@ use super::beams::Beams;
 use super::cue::Cue;
 use super::march::{Hit, Shaded};
 use super::projected::ProjectedFace;
-use super::targets::{Outlines, Target};
+use super::targets::Outlines;
 use crate::light::strength::LightStrength;
 use crate::view::camera::Camera;
 use crate::view::samples::{Layout, POSITIONS};
@@ -21,6 +21,7 @@ pub struct Polygons {
     /// For each beam: its part of `binned`.
     starts: Vec<u32>,
     binned: Vec<u32>,
+    beams: Beams,
     /// Depths no further apart than this are one, world units.
     slack: f64,
     cue: Option<Cue>,
@@ -61,7 +62,7 @@ impl Polygons {
                 next[beam] += 1;
             }
         }
-        Self { faces, starts, binned, slack, cue, camera, strengths }
+        Self { faces, starts, binned, beams: *beams, slack, cue, camera, strengths }
     }
 
     /// Whether there is no polygon.
@@ -69,9 +70,11 @@ impl Polygons {
         self.faces.is_empty()
     }
 
-    /// Adds to `hits` what a ray of a beam meets, in the order of depths, ties in the order of the scene.
-    pub fn meet(&self, beam: usize, window: DVec2, hits: &mut Vec<Hit>) {
-        let first = hits.len();
+    /// Adds to `hits` what the ray at a position meets (counted from the middle of pixel (0, 0)), in the order of depths, ties
+    /// in the order of the scene.
+    pub fn meet(&self, position: [i64; 2], hits: &mut Vec<Hit>) {
+        let (first, beam) = (hits.len(), self.beams.around_position(position));
+        let window = Camera::window(position);
         let near = &self.binned[self.starts[beam] as usize..self.starts[beam + 1] as usize];
         for &number in near {
             let face = &self.faces[number as usize];
@@ -103,8 +106,8 @@ impl Polygons {
         self.cue.map_or(1.0, |cue| cue.factor(hit.depth))
     }
 
-    /// Shades a hit of the ray at `target`.
-    pub fn shade(&self, hit: &Hit, target: Target) -> Shaded {
+    /// Shades a hit of the ray at a position, which stands for `step` positions.
+    pub fn shade(&self, hit: &Hit, position: [i64; 2], step: usize) -> Shaded {
         let appearance = self.faces[hit.face as usize].appearance();
         let (plain_color, plain_opacity) = self.plain(hit);
         if appearance.texture.is_none() && self.strengths.iter().all(Option::is_none) {
@@ -115,11 +118,11 @@ impl Polygons {
                 plain_opacity,
             };
         }
-        let ray = self.camera.ray(target.window);
+        let ray = self.camera.ray(Camera::window(position));
         let shadowed = self.shadowed(appearance, ray.at(hit.depth));
         let lit = appearance.ambient + (appearance.reflected + shadowed) * self.fade(hit);
         let texel = appearance.texture.as_ref();
-        let texel = texel.map_or(Vec4::ONE, |texture| texture.at(&ray, hit.depth, target.step));
+        let texel = texel.map_or(Vec4::ONE, |texture| texture.at(&ray, hit.depth, step));
         let texel = texel.as_dvec4();
         Shaded {
             color: lit * texel.truncate() * appearance.opacity,

@@ -23,8 +23,6 @@ pub enum AnyMedium<'a> {
 pub struct Several<'a> {
     /// In the order of the scene, which no picture depends on.
     pub media: Vec<AnyMedium<'a>>,
-    /// Δ, world units.
-    pub distance: f64,
     /// Dust in shafts of light, wherever some volume is: as thick as for the first that is there.
     pub dust: Option<&'a Dust>,
 }
@@ -61,7 +59,7 @@ macro_rules! with_medium {
 impl Media for Several<'_> {
     type Entered = EnteredAll;
 
-    fn enter(&self, packet: &Packet<'_>, entered: &mut EnteredAll) -> [i64; 2] {
+    fn enter(&self, packet: &Packet, entered: &mut EnteredAll) -> [i64; 2] {
         entered.each.resize_with(self.media.len(), Within::default);
         let mut all = [i64::MAX, i64::MIN];
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
@@ -72,12 +70,12 @@ impl Media for Several<'_> {
         all
     }
 
-    fn seek(&self, entered: &mut EnteredAll, k: i64) -> i64 {
+    fn seek(&self, entered: &mut EnteredAll, k: i64, counts: &mut Counts) -> i64 {
         let mut least = i64::MAX;
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
             if within.next < k {
                 let from = k.max(within.range[0]);
-                let found = with_medium!(medium, inner => inner.seek(&mut within.entered, from));
+                let found = with_medium!(medium, inner => inner.seek(&mut within.entered, from, counts));
                 within.next = if found < within.range[1] { found } else { i64::MAX };
             }
             least = least.min(within.next);
@@ -103,7 +101,7 @@ impl Media for Several<'_> {
         let there = self.media.iter().zip(each).filter(|(_, within)| within.met >> lane & 1 == 1);
         for (medium, within) in there {
             if let Some(dust) = self.dust.filter(|_| parts.is_empty()) {
-                let (world, ratio) = within.entered.place(lane, k, self.distance);
+                let (world, ratio) = with_medium!(medium, inner => inner.place(&within.entered, lane, k));
                 parts.push(slab(dust.join(Vec4::ZERO, world), ratio));
             }
             parts.push(with_medium!(medium, inner => inner.slab(&mut within.entered, k, lane)));

@@ -1,7 +1,6 @@
 //! What refinement asks for: rays at places of the picture, and the three colours that they bring back.
 
-use glam::DVec2;
-
+use super::lanes::{LANES, Packet};
 use crate::view::samples::Counts;
 
 /// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
@@ -15,26 +14,15 @@ pub struct RayColors {
     pub geometric: [f32; 4],
 }
 
-/// Where a ray is cast.
-#[derive(Debug, Clone, Copy)]
-pub struct Target {
-    /// The number of its beam.
-    pub beam: usize,
-    /// Its window position, pixels.
-    pub window: DVec2,
-    /// The distance to the next ray of its level, in positions: what it stands for.
-    pub step: usize,
-}
-
 /// Casts rays.
 pub trait Caster: Sync {
     /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
     type Scratch: Default;
-    /// Casts the rays at `targets`, neighbours in the picture, and puts what they saw into `rays`, which is as long.
+    /// Casts the wanted rays of a packet and puts what they saw into `rays`.
     fn cast(
         &self,
-        targets: &[Target],
-        rays: &mut [RayColors],
+        packet: &Packet,
+        rays: &mut [RayColors; LANES],
         scratch: &mut Self::Scratch,
         counts: &mut Counts,
     );

@@ -39,8 +39,8 @@ impl System for StackPyramid {
         }
         let bytes = |v: &SceneVolume| {
             let bricks: u64 = v.size().iter().map(|n| n.div_ceil(CELLS) as u64).product();
-            // A bit a cell and a level a brick.
-            bricks.saturating_mul(size_of::<[u64; CELLS]>() as u64 + 1)
+            // Three bits a cell, a distance for each of eight blocks, and an entry in a table.
+            bricks.saturating_mul(3 * size_of::<[u64; CELLS]>() as u64 + 8 + 4)
         };
         let makes: Vec<_> = visible(world).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {

@@ -74,7 +74,7 @@ fn spawn_view(world: &mut World, grid: &Grid) -> Entity {
 /// The texel of a voxel; zero where nothing is stored.
 fn texel(gel: &GelBricks, voxel: [usize; 3]) -> Vec4 {
     with_texels!(gel, texels => {
-        let (_, brick) = texels.slices().brick(voxel);
+        let brick = texels.slices().stored(texels.entry(voxel));
         texels.slices().sample(brick, voxel.map(|n| n % CELLS), Vec3::ZERO)
     })
 }

@@ -1,10 +1,10 @@
 //! Facts about samples and leaps on random rays: no leap passes a sample that is not empty, and no sample lies outside the domain.
 
-use glam::{DAffine3, DMat3, DQuat, DVec2};
+use glam::{DAffine3, DMat3, DQuat};
 use proptest::array::uniform3;
 use proptest::prelude::*;
 
-use super::super::lanes;
+use super::super::lanes::each;
 use super::*;
 use crate::components::View;
 use crate::view::camera::Camera;
@@ -101,23 +101,25 @@ impl Case {
 
 type Taken = Vec<(i64, [u64; 4])>;
 
-/// Every slab of a ray that is not empty: its number, and the bits of what is in it. From a number on where the rays are
-/// asked to seek anew, as where a polygon interrupts them.
-fn taken(medium: &Medium<'_, [f32; 4]>, packet: &Packet<'_>, lane: usize, anew: i64) -> Taken {
-    let (mut taken, mut counts, mut entered) = (Vec::new(), Counts::default(), Entered::default());
+/// Every slab of every wanted ray that is not empty: its number, and the bits of what is in it. From a number on where the
+/// rays are asked to seek anew, as where a polygon interrupts them.
+fn taken(medium: &Medium<'_, [f32; 4]>, packet: &Packet, anew: i64) -> [Taken; LANES] {
+    let (mut counts, mut entered) = (Counts::default(), Entered::default());
+    let mut taken: [Taken; LANES] = Default::default();
     let [mut k, end] = medium.enter(packet, &mut entered);
-    let lanes = lanes::first(packet.rays.len());
     while k < end {
-        let sought = medium.seek(&mut entered, k);
+        let sought = medium.seek(&mut entered, k, &mut counts);
         if k < anew && anew < sought {
             k = anew;
             continue;
         }
         k = sought;
-        if k < end && medium.meet(&mut entered, k, lanes, &mut counts) >> lane & 1 == 1 {
-            let (color, opacity) = medium.slab(&mut entered, k, lane);
-            if (color, opacity) != (DVec3::ZERO, 0.0) {
-                taken.push((k, color.extend(opacity).to_array().map(f64::to_bits)));
+        if k < end {
+            for lane in each(medium.meet(&mut entered, k, packet.wanted, &mut counts)) {
+                let (color, opacity) = medium.slab(&mut entered, k, lane);
+                if (color, opacity) != (DVec3::ZERO, 0.0) {
+                    taken[lane].push((k, color.extend(opacity).to_array().map(f64::to_bits)));
+                }
             }
         }
         k += 1;
@@ -125,43 +127,64 @@ fn taken(medium: &Medium<'_, [f32; 4]>, packet: &Packet<'_>, lane: usize, anew: 
     taken
 }
 
+/// Every set of instructions that this machine has.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    let mut levels = vec![best, Level::baseline()];
+    #[cfg(target_arch = "x86_64")]
+    {
+        levels.extend(best.as_avx2().map(Level::Avx2));
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+    }
+    levels
+}
+
+/// A packet somewhere in a picture of 5 × 5 pixels; some through its very middle, where views along an axis run in planes of
+/// voxels.
+fn packets() -> impl Strategy<Value = Packet> {
+    let anywhere = (-8..20_i64, -8..20_i64).prop_map(|(i, j)| [i, j]);
+    let first = prop_oneof![4 => anywhere, 1 => Just([8, 8])];
+    let step = (0..4_u32).prop_map(|shift| 1_usize << shift);
+    (first, step, any::<u16>())
+        .prop_map(|(first, step, some)| Packet { first, step, wanted: some | 1 })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_leap_passes_no_sample_that_is_not_empty(case in cases(), places in proptest::collection::vec((0.0..1.0, 0.0..1.0, any::<i8>()), 12)) {
+    fn a_leap_passes_no_sample_that_is_not_empty(case in cases(), packet in packets(), until in any::<i8>()) {
         let gel = case.gel();
         let pyramid = Pyramid::of(&gel);
         let camera = Camera::new(&case.view, &Extent::of(case.grid.corners()).unwrap());
-        let walk = Walk::new(&case.grid, &camera, case.distance).unwrap();
-        let medium = |pyramid| Medium {
-            walk, gel: gel.slices(), ambient: None, pyramid, occupied: None, ratio: 1.0, distance: case.distance, cue: None,
-            dust: None,
+        let walk = Walk::new(&case.grid, &camera, case.distance).unwrap().unwrap();
+        let medium = |pyramid, level| Medium {
+            walk, camera: &camera, gel: gel.slices(), ambient: None, pyramid, ratio: 1.0, distance: case.distance, cue: None,
+            dust: None, level,
         };
-        let (all, some) = (medium(None), medium(Some(pyramid.slices())));
-        // Some rays through the very middle, where views along an axis run in planes of voxels; and packets of neighbours.
-        let rays: Vec<_> = places.iter().map(|&(x, y, until)| {
-            camera.ray(if until == 0 { DVec2::splat(2.5) } else { DVec2::new(x, y) * 5.0 })
-        }).collect();
-        for (lane, (ray, (.., until))) in rays.iter().zip(&places).enumerate() {
-            let Some(samples) = walk.enter(ray) else { continue };
-            let alone = Packet { rays: std::slice::from_ref(ray), beams: &[0] };
-            let expected = taken(&all, &alone, 0, i64::MIN);
-            prop_assert!(expected.iter().all(|(k, _)| (samples.first..samples.end).contains(k)));
-            let anew = samples.first + i64::from(*until);
-            prop_assert_eq!(&taken(&some, &alone, 0, anew), &expected);
-            let together = Packet { rays: &rays, beams: &[0; LANES][..rays.len()] };
-            prop_assert_eq!(&taken(&some, &together, lane, anew), &expected);
+        let mut tile = Tile::default();
+        walk.enter(packet.first, packet.step as i64, &mut tile);
+        let anew = tile.some[0].saturating_add(i64::from(until));
+        let expected = taken(&medium(None, Level::baseline()), &packet, i64::MIN);
+        for level in levels() {
+            prop_assert_eq!(&taken(&medium(Some(pyramid.slices()), level), &packet, anew), &expected);
         }
+        // Alone, or in another tile, a ray takes what it takes among others.
+        let lane = packet.wanted.trailing_zeros() as usize;
+        let alone = Packet { first: packet.position(lane), step: 1, wanted: 1 };
+        let some = medium(Some(pyramid.slices()), Level::new());
+        prop_assert_eq!(&taken(&some, &alone, anew)[0], &expected[lane]);
     }
 
     #[test]
-    fn the_samples_of_any_ray_are_exactly_those_within_the_domain(case in cases(), x in -0.2..1.2, y in -0.2..1.2, moved in -1e6..1e6) {
+    fn the_samples_of_any_ray_are_exactly_those_within_the_domain(case in cases(), packet in packets(), moved in -1e6..1e6) {
         let mut grid = case.grid;
         grid.index_to_world.translation += DVec3::splat(moved);
         let camera = Camera::new(&case.view, &Extent::of(grid.corners()).unwrap());
-        let walk = Walk::new(&grid, &camera, case.distance).unwrap();
-        let ray = camera.ray(DVec2::new(x, y) * 5.0);
+        let walk = Walk::new(&grid, &camera, case.distance).unwrap().unwrap();
+        let mut tile = Tile::default();
+        walk.enter(packet.first, packet.step as i64, &mut tile);
+        let ray = camera.ray(Camera::window(packet.first));
         let inside = |k: i64, slack: f64| {
             let world = ray.at((k as f64 + 0.5) * case.distance);
             let index = grid.world_to_index().transform_point3(world);
@@ -171,9 +194,10 @@ proptest! {
         let reach = (case.grid.corners()[0].length() / case.distance) as i64 + 2;
         // A ray has few thousand samples; of more, some stretches.
         let numbers = (-reach..=reach).step_by(1 + reach as usize / 20_000);
-        let entered = walk.enter(&ray);
         for k in numbers {
-            let taken = entered.is_some_and(|samples| (samples.first..samples.end).contains(&k));
+            let all = (tile.all[0]..tile.all[1]).contains(&k);
+            let taken = (tile.some[0]..tile.some[1]).contains(&k) && (all || walk.holds(&tile, 0, k));
+            prop_assert!(!all || walk.holds(&tile, 0, k), "sample {} is not held", k);
             let seen = camera.eye.is_none_or(|eye| (k as f64 + 1.0) * case.distance > 1e-9 - eye);
             prop_assert!(taken || !seen || !inside(k, 1e-6), "sample {} is left out", k);
             prop_assert!(!taken || inside(k, -1e-6), "sample {} is outside", k);
