@@ -85,18 +85,20 @@ impl Affine {
         Self { at, across: I64Vec3::ZERO, down: I64Vec3::ZERO, shift: 0 }
     }
 
-    /// Those of a tile, axis by axis.
+    /// Puts those of a tile into `triples`, axis by axis.
     #[inline]
-    fn tile(&self, [i, j]: [i64; 2], step: i64) -> [[i64; LANES]; 3] {
+    fn tile(&self, [i, j]: [i64; 2], step: i64, triples: &mut [[i64; LANES]; 3]) {
         let half = if self.shift > 0 { 1_i64 << (self.shift - 1) } else { 0 };
-        std::array::from_fn(|axis| {
+        for (axis, triples) in triples.iter_mut().enumerate() {
             let (across, down) = (self.across[axis], self.down[axis]);
             let first = self.at[axis] + across * i + down * j + half;
-            std::array::from_fn(|lane| {
-                let (x, y) = ((lane % SIDE) as i64 * step, (lane / SIDE) as i64 * step);
-                (first + across * x + down * y) >> self.shift
-            })
-        })
+            for (y, row) in triples.chunks_exact_mut(SIDE).enumerate() {
+                let first = first + down * (y as i64 * step);
+                for (x, triple) in row.iter_mut().enumerate() {
+                    *triple = (first + across * (x as i64 * step)) >> self.shift;
+                }
+            }
+        }
     }
 }
 
@@ -155,8 +157,8 @@ impl Walk {
     /// The rays of a tile of positions `step` apart, the first of which is `first`, counted from the middle of pixel (0, 0).
     #[inline]
     pub fn enter(&self, first: [i64; 2], step: i64, tile: &mut Tile) {
-        tile.at = self.places.tile(first, step);
-        tile.step = self.steps.tile(first, step);
+        self.places.tile(first, step, &mut tile.at);
+        self.steps.tile(first, step, &mut tile.step);
         tile.middle = self.middle;
         let last = self.last.as_dvec3() / UNIT;
         let ray = |lane: usize| {

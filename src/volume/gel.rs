@@ -21,6 +21,9 @@ pub const TEXELS: usize = ROW * ROW * ROW;
 /// The table's entry for a brick that is not stored.
 pub const EMPTY: u32 = u32::MAX;
 
+/// Gel that is nowhere more opaque than this is kept in 32 bits, where that is left open.
+pub const FAINT: f32 = 1.0 / 16.0;
+
 /// A number type that four channels of the gel are kept in; colour and opacity in 0..=1.
 pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The channels as stored numbers: 1 is `1 / SCALE`.

@@ -4,10 +4,10 @@ use std::sync::LazyLock;
 
 use glam::{Vec3, Vec4};
 
-use crate::components::Clip;
 use crate::components::color::to_linear;
+use crate::components::{Clip, TexelKind};
 use crate::volume::clipping::{Cut, Left};
-use crate::volume::gel::CELLS;
+use crate::volume::gel::{CELLS, FAINT};
 use crate::volume::grid::{Grid, Painted};
 
 /// Linear intensity of every 8-bit sRGB channel.
@@ -84,6 +84,21 @@ impl<'a> Painting<'a> {
                 Painted::U16(values) => self.is_seen(values, first, extent),
                 Painted::F32(values) => self.is_seen(values, first, extent),
             }
+    }
+
+    /// 16-bit texels for integers some of which are not faint, which colours of integers are never too bright for; else 32-bit
+    /// ones.
+    #[must_use]
+    pub fn suited(&self) -> TexelKind {
+        fn is_faint<T: Paint>(values: &[T]) -> bool {
+            values.iter().all(|voxel| voxel.opacity() <= FAINT)
+        }
+        let faint = match self.painted {
+            Painted::U8(values) => is_faint(values),
+            Painted::U16(values) => is_faint(values),
+            Painted::F32(_) => true,
+        };
+        if faint { TexelKind::F32 } else { TexelKind::U16 }
     }
 
     fn is_seen<T: Paint>(&self, values: &[T], first: [usize; 3], extent: [usize; 3]) -> bool {

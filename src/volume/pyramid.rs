@@ -76,7 +76,7 @@ pub struct PyramidSlices<'a> {
     near: &'a Near,
 }
 
-impl PyramidSlices<'_> {
+impl<'a> PyramidSlices<'a> {
     /// Which bits tell of interesting cells within `reach` cells of another, for [`is_near`](Self::is_near); `None` where none
     /// reach so far.
     #[must_use]
@@ -91,12 +91,11 @@ impl PyramidSlices<'_> {
         self.near.holds(reaching, cell)
     }
 
-    /// Whether cell `(z · 8 + y) · 8 + x`, each in 0..8, of a stored brick is interesting; of [`EMPTY`](crate::volume::gel::EMPTY), none is.
+    /// The interesting cells of a stored brick: bit `8 y + x` of word `z`; `None` for one that is not stored.
     #[must_use]
     #[inline]
-    pub fn is_interesting(self, brick: u32, cell: u32) -> bool {
-        let words = self.cells.get(brick as usize);
-        words.is_some_and(|words| words[(cell >> 6) as usize % CELLS] >> (cell & 63) & 1 == 1)
+    pub fn words(self, brick: u32) -> Option<&'a [u64; CELLS]> {
+        self.cells.get(brick as usize)
     }
 
     /// How many blocks lie between the one around a cell and the nearest with an interesting cell, along the axis on which

@@ -5,7 +5,7 @@ use super::targets::RayColors;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
 /// The least rows of positions in a band.
-const LEAST: usize = 16;
+const LEAST: usize = 64;
 
 /// The part of a sample array that one row of packets of the coarser levels, or some of the finer, lies in.
 pub struct Band<'b> {
@@ -79,8 +79,9 @@ impl Band<'_> {
         mut cast: impl FnMut(&mut Self, [usize; 2], Lanes),
     ) {
         let (across, shift) = (layout.positions()[0], step.trailing_zeros());
-        for j in (self.top..self.bottom).step_by(SIDE * step) {
-            for i in (0..across).step_by(SIDE * step) {
+        // Down before across: what is below one another lies in the same bricks.
+        for i in (0..across).step_by(SIDE * step) {
+            for j in (self.top..self.bottom).step_by(SIDE * step) {
                 let mut lanes = 0;
                 for lane in 0..LANES {
                     let (x, y) = (i + lane % SIDE * step, j + lane / SIDE * step);

@@ -3,7 +3,7 @@
 //! Compiled anew for each set of instructions; a product is always rounded before it is added to, so that no bit depends on
 //! which set it is.
 
-use fearless_simd::{Simd, SimdBase, f32x4, f32x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x4, f32x8, u32x16};
 use glam::Vec4;
 
 use super::lanes::{LANES, Lanes, each};
@@ -96,16 +96,23 @@ pub fn meet<S: Simd, T: Texel>(
     seen: &mut [Vec4; LANES],
 ) -> Lanes {
     let places = Places::at(tile, k, gel.gel.counts());
-    let (mut met, mut stored) = (lanes, [EMPTY; LANES]);
-    for lane in each(lanes) {
-        stored[lane] = gel.gel.stored(places.entries[lane]);
-    }
-    if let Some(pyramid) = gel.pyramid {
-        let bits = places.cells(CELLS as u32, (CELLS * CELLS) as u32);
-        met = 0;
-        for lane in each(lanes) {
-            met |= Lanes::from(pyramid.is_interesting(stored[lane], bits[lane])) << lane;
-        }
+    let cells = places.cells(CELLS as u32, (CELLS * CELLS) as u32);
+    let (mut met, mut stored) = (0, [EMPTY; LANES]);
+    // Neighbours lie in one brick or in few.
+    let entries = u32x16::from_slice(simd, &places.entries);
+    let mut left = lanes;
+    while left != 0 {
+        let entry = places.entries[left.trailing_zeros() as usize];
+        let same = entries.simd_eq(u32x16::splat(simd, entry)).to_bitmask() as Lanes & left;
+        left &= !same;
+        let brick = gel.gel.stored(entry);
+        let here = match gel.pyramid.map(|pyramid| pyramid.words(brick)) {
+            Some(Some(words)) => same & interesting(words, &cells),
+            Some(None) => 0,
+            None => same,
+        };
+        each(here).for_each(|lane| stored[lane] = brick);
+        met |= here;
     }
     if met == 0 {
         return met;
@@ -113,7 +120,8 @@ pub fn meet<S: Simd, T: Texel>(
     let first = places.cells(ROW as u32, (ROW * ROW) as u32);
     let parts = [places.parts(0), places.parts(1), places.parts(2)];
     for lane in each(met) {
-        let (first, part) = (first[lane] as usize, parts.map(|parts| parts[lane]));
+        let part = [parts[0][lane], parts[1][lane], parts[2][lane]];
+        let first = first[lane] as usize;
         let lit = sample(simd, gel.gel.texels(stored[lane]), first, part);
         seen[lane] = match (fade, gel.ambient) {
             (Some(fade), Some(ambient)) => {
@@ -126,6 +134,18 @@ pub fn meet<S: Simd, T: Texel>(
     met
 }
 
+/// Which of sixteen cells of a brick are interesting, by its words; a cell is counted `(z · 8 + y) · 8 + x`.
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#[inline(always)]
+fn interesting(words: &[u64; CELLS], cells: &[u32; LANES]) -> Lanes {
+    let mut set = 0;
+    for (lane, cell) in cells.iter().enumerate() {
+        let word = words[(cell >> 6) as usize % CELLS];
+        set |= ((word >> (cell & 63)) as u32 & 1) << lane;
+    }
+    set as Lanes
+}
+
 /// Tri-linear interpolation in the cell whose first texel is `first`: two texels at once, the axes y and z before x.
 #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
@@ -135,8 +155,9 @@ fn sample<S: Simd, T: Texel>(
     first: usize,
     [x, y, z]: [f32; 3],
 ) -> Vec4 {
+    let texels = &texels[first..][..ROW * ROW + ROW + 2];
     let pair = |offset: usize| {
-        let pair = &texels[first + offset..][..2];
+        let pair = &texels[offset..][..2];
         f32x8::from_slice(simd, &T::channels([pair[0], pair[1]]))
     };
     let mix = |low: f32x8<S>, high: f32x8<S>, part: f32| (high - low) * part + low;

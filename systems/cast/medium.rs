@@ -108,6 +108,13 @@ impl<T: Texel> Medium<'_, T> {
         (self.ray(entered, lane).at(depth), entered.ratios[lane])
     }
 
+    /// The slab of a sample with the dust that is there.
+    #[inline(never)]
+    fn dusty(&self, dust: &Dust, entered: &Entered, (lane, k): (usize, i64)) -> (DVec3, f64) {
+        let (world, ratio) = self.place(entered, lane, k);
+        slab(dust.join(entered.seen[lane], world), ratio)
+    }
+
     fn ray(&self, entered: &Entered, lane: usize) -> Ray {
         let position = entered.packet.map_or([0; 2], |packet| packet.position(lane));
         self.camera.ray(Camera::window(position))
@@ -142,22 +149,18 @@ impl<T: Texel> Media for Medium<'_, T> {
         let Entered { bundle, tile, .. } = entered;
         while k < tile.some[1] {
             let cell = bundle.cell(k - tile.middle);
-            match bundle.reaching.map(|reaching| pyramid.is_near(reaching, cell)) {
-                Some(Some(true)) => break,
-                Some(Some(false)) => {
-                    k += 1;
-                    continue;
-                }
-                _ => (),
+            let near = bundle.reaching.and_then(|reaching| pyramid.is_near(reaching, cell));
+            if near == Some(true) {
+                break;
             }
-            let distance = pyramid.distance(cell);
             // Blocks nearer than that are empty, the bundle's own and those that it reaches on its way.
-            let room = (i64::from(distance) - 1) as f64 * BLOCK as f64 - bundle.radius;
-            if room < 0.0 {
+            let distance = i64::from(pyramid.distance(cell));
+            let room = (distance - 1) as f64 * BLOCK as f64 - bundle.radius;
+            if near.is_none() && room < 0.0 {
                 break;
             }
             counts.cells_skipped += 1;
-            k = k.saturating_add((room * bundle.per_cell) as i64 + 1);
+            k = k.saturating_add((room.max(0.0) * bundle.per_cell) as i64 + 1);
         }
         entered.next = k;
         k
@@ -186,10 +189,7 @@ impl<T: Texel> Media for Medium<'_, T> {
     fn slab(&self, entered: &mut Entered, k: i64, lane: usize) -> (DVec3, f64) {
         let sample = entered.seen[lane];
         match self.dust {
-            Some(dust) => {
-                let (world, ratio) = self.place(entered, lane, k);
-                slab(dust.join(sample, world), ratio)
-            }
+            Some(dust) => self.dusty(dust, entered, (lane, k)),
             None => slab(sample, entered.ratios[lane]),
         }
     }

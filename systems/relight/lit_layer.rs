@@ -6,10 +6,7 @@ use rayon::prelude::*;
 use crate::components::TexelKind;
 use crate::light::strength::VoxelStrength;
 use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
-use crate::volume::gel::GelBricks;
-
-/// GelBricks that is nowhere more opaque than this is kept in 32 bits.
-const FAINT: f32 = 1.0 / 16.0;
+use crate::volume::gel::{FAINT, GelBricks};
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]

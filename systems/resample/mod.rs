@@ -3,6 +3,8 @@
 //! A colour between positions is the bilinear interpolation of the corners of the smallest region it lies in. A box
 //! one pixel wide over that is integrated exactly, quadrant by quadrant; other pixel filters sum over positions.
 
+use std::borrow::Cow;
+
 use glam::{DVec4, Vec3, Vec4};
 use hecs::{Entity, World};
 use rayon::prelude::*;
@@ -50,28 +52,32 @@ fn resample(array: &SampleArray, filter: PixelFilter, background: Option<Color>)
     let mut pixels = vec![[0.0; 4]; size[0] * size[1]];
     let lattice = Lattice::of(array);
     let kernel = (filter != PixelFilter::Box).then(|| kernel(filter));
-    pixels.par_chunks_mut(size[0]).enumerate().for_each(|(y, row)| {
-        for (x, pixel) in row.iter_mut().enumerate() {
-            *pixel = match &kernel {
-                None => boxed(array, &lattice, x, y),
-                Some(kernel) => convolved(array, &lattice, kernel, x, y),
-            };
+    pixels.par_chunks_mut(size[0] * ROWS).enumerate().for_each(|(chunk, rows)| match &kernel {
+        None => boxed_rows(array, &lattice, chunk * ROWS, rows),
+        Some(kernel) => {
+            for (at, pixel) in rows.iter_mut().enumerate() {
+                let (x, y) = (at % size[0], chunk * ROWS + at / size[0]);
+                *pixel = convolved(array, &lattice, kernel, x, y);
+            }
         }
     });
     let picture = Picture { size, pixels: crate::shared::Shared::new(pixels) };
     background.map_or(picture.clone(), |color| picture.over(color.0))
 }
 
+/// Rows of pixels that are resampled together.
+const ROWS: usize = 16;
+
 /// C at every fourth position: cast, or interpolated where no ray was.
-struct Lattice {
+struct Lattice<'a> {
     across: usize,
-    colors: Vec<[f32; 4]>,
+    colors: Cow<'a, [[f32; 4]]>,
 }
 
-impl Lattice {
-    fn of(array: &SampleArray) -> Self {
-        let mut lattice =
-            Self { across: array.layout.blocks()[0], colors: array.colors.lattice.clone() };
+impl<'a> Lattice<'a> {
+    fn of(array: &'a SampleArray) -> Self {
+        let colors = Cow::Borrowed(&array.colors.lattice[..]);
+        let mut lattice = Self { across: array.layout.blocks()[0], colors };
         let mut step = array.layout.coarsest / POSITIONS / 2;
         while step > 0 {
             lattice.fill(array, step);
@@ -96,7 +102,7 @@ impl Lattice {
                             (row(y - step) * 0.5 + row(y + step) * 0.5) * 0.5
                         }
                     };
-                    self.colors[y * self.across + x] = color.to_array();
+                    self.colors.to_mut()[y * self.across + x] = color.to_array();
                 }
             }
         }
@@ -133,21 +139,41 @@ fn between(array: &SampleArray, i: usize, j: usize, step: usize) -> Vec4 {
     }
 }
 
+/// The means over the pixels of some rows, from row `y` on.
+fn boxed_rows(array: &SampleArray, lattice: &Lattice<'_>, y: usize, rows: &mut [[f32; 4]]) {
+    let (width, first) = (array.layout.size[0], array.layout.margin / POSITIONS);
+    let height = rows.len() / width;
+    // Where no region is split, the weights are (1, 6, 1) / 8 along each axis: along x first, for each row of the lattice.
+    let mut lines = Vec::with_capacity((height + 2) * width);
+    for row in y + first - 1..=y + first + height {
+        let row = &lattice.colors[row * lattice.across + first - 1..][..width + 2];
+        lines.extend(row.windows(3).map(|line| {
+            let line = [line[0], line[1], line[2]].map(Vec4::from_array);
+            (line[0] + line[2]) * 0.125 + line[1] * 0.75
+        }));
+    }
+    let across = array.layout.blocks()[0];
+    for (down, row) in rows.chunks_exact_mut(width).enumerate() {
+        let split = |row: usize| &array.splits[row * across + first - 1..][..width + 1];
+        let splits = [split(y + down + first - 1), split(y + down + first)];
+        let line = |row: usize| &lines[(down + row) * width..][..width];
+        let (above, own, below) = (line(0), line(1), line(2));
+        for (x, pixel) in row.iter_mut().enumerate() {
+            let split = splits.iter().any(|row| (row[x] | row[x + 1]) & 1 == 1);
+            *pixel = if split {
+                boxed(array, lattice, x, y + down)
+            } else {
+                ((above[x] + below[x]) * 0.125 + own[x] * 0.75).to_array()
+            };
+        }
+    }
+}
+
 /// The mean over a pixel: the mean of its four quadrants, each within one region of 4 × 4 positions.
-fn boxed(array: &SampleArray, lattice: &Lattice, x: usize, y: usize) -> [f32; 4] {
+fn boxed(array: &SampleArray, lattice: &Lattice<'_>, x: usize, y: usize) -> [f32; 4] {
     let first = array.layout.margin / POSITIONS;
     let (x, y) = (x + first, y + first);
     let row = array.layout.blocks()[0];
-    let blocks = [(y - 1) * row + x - 1, (y - 1) * row + x, y * row + x - 1, y * row + x];
-    if blocks.iter().all(|&block| array.splits[block] & 1 == 0) {
-        // All four quadrants at once: the weights are (1, 6, 1) / 8 along each axis.
-        let line = |y: usize| {
-            let first = y * lattice.across + x - 1;
-            let line = [0, 1, 2].map(|n| Vec4::from_array(lattice.colors[first + n]));
-            (line[0] + line[2]) * 0.125 + line[1] * 0.75
-        };
-        return ((line(y - 1) + line(y + 1)) * 0.125 + line(y) * 0.75).to_array();
-    }
     let quadrant = |right: usize, below: usize| {
         // The region left of or right of the pixel's middle, above or below it.
         let (i, j) = (x - 1 + right, y - 1 + below);
@@ -181,7 +207,7 @@ fn child_mean(array: &SampleArray, [i, j]: [usize; 2], fine: bool) -> Vec4 {
 }
 
 /// The colour of any position.
-fn anywhere(array: &SampleArray, lattice: &Lattice, i: usize, j: usize) -> Vec4 {
+fn anywhere(array: &SampleArray, lattice: &Lattice<'_>, i: usize, j: usize) -> Vec4 {
     if array.is_cast(i, j) {
         return cast_color(array, i, j);
     }
@@ -208,7 +234,7 @@ fn kernel(filter: PixelFilter) -> Vec<f64> {
 /// The sum over positions, in 64 bits: what is constant stays so to the last bit.
 fn convolved(
     array: &SampleArray,
-    lattice: &Lattice,
+    lattice: &Lattice<'_>,
     kernel: &[f64],
     x: usize,
     y: usize,
