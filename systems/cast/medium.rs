@@ -178,7 +178,8 @@ impl<T: Texel> Media for Medium<'_, T> {
         let gel = kernel::Gel { gel: self.gel, ambient: self.ambient, pyramid: self.pyramid };
         let fade = self.cue.map(|cue| cue.factor((k as f64 + 0.5) * self.distance) as f32);
         let (tile, seen) = (&entered.tile, &mut entered.seen);
-        let met = dispatch!(self.level, simd => kernel::meet(simd, gel, fade, tile, (k, there), seen));
+        let met =
+            dispatch!(self.level, simd => kernel::meet(simd, gel, fade, tile, (k, there), seen));
         counts.packet_steps += 1;
         counts.samples += u64::from(met.count_ones());
         counts.cells_skipped += u64::from((there & !met).count_ones());

@@ -242,8 +242,7 @@ impl Rays {
             .then(|| self.polygons.outlines(&layout, 8));
         let Self { polygons: faces, slabs } = self;
         let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
-        let caster =
-            BeamCaster { polygons: faces, slabs, media, three_colors: supersampled };
+        let caster = BeamCaster { polygons: faces, slabs, media, three_colors: supersampled };
         let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
             .refine(watch)?;
         Ok(Samples(Arc::new(array)))

@@ -75,7 +75,8 @@ impl Media for Several<'_> {
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
             if within.next < k {
                 let from = k.max(within.range[0]);
-                let found = with_medium!(medium, inner => inner.seek(&mut within.entered, from, counts));
+                let found =
+                    with_medium!(medium, inner => inner.seek(&mut within.entered, from, counts));
                 within.next = if found < within.range[1] { found } else { i64::MAX };
             }
             least = least.min(within.next);
@@ -101,7 +102,8 @@ impl Media for Several<'_> {
         let there = self.media.iter().zip(each).filter(|(_, within)| within.met >> lane & 1 == 1);
         for (medium, within) in there {
             if let Some(dust) = self.dust.filter(|_| parts.is_empty()) {
-                let (world, ratio) = with_medium!(medium, inner => inner.place(&within.entered, lane, k));
+                let (world, ratio) =
+                    with_medium!(medium, inner => inner.place(&within.entered, lane, k));
                 parts.push(slab(dust.join(Vec4::ZERO, world), ratio));
             }
             parts.push(with_medium!(medium, inner => inner.slab(&mut within.entered, k, lane)));

@@ -128,7 +128,8 @@ impl Inputs {
                         *voxel = (voxel.truncate() * voxel.w).extend(voxel.w);
                     }
                 };
-                let kind = if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
+                let kind =
+                    if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
                 let lit = GelBricks::make(kind, grid.size, holds, fill);
                 Ok(Gel { lit, ambient: None })
             }

@@ -145,8 +145,11 @@ fn packets() -> impl Strategy<Value = Packet> {
     let anywhere = (-8..20_i64, -8..20_i64).prop_map(|(i, j)| [i, j]);
     let first = prop_oneof![4 => anywhere, 1 => Just([8, 8])];
     let step = (0..4_u32).prop_map(|shift| 1_usize << shift);
-    (first, step, any::<u16>())
-        .prop_map(|(first, step, some)| Packet { first, step, wanted: some | 1 })
+    (first, step, any::<u16>()).prop_map(|(first, step, some)| Packet {
+        first,
+        step,
+        wanted: some | 1,
+    })
 }
 
 proptest! {
