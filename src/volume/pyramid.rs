@@ -80,8 +80,8 @@ impl<'a> PyramidSlices<'a> {
     /// Which bits tell of interesting cells within `reach` cells of another, for [`is_near`](Self::is_near); `None` where none
     /// reach so far.
     #[must_use]
-    pub fn reaching(self, reach: f64) -> Option<usize> {
-        self.near.reaching(reach)
+    pub fn reaching(reach: f64) -> Option<usize> {
+        Near::reaching(reach)
     }
 
     /// Whether an interesting cell may be within reach of a cell; `None` if there is none near its brick at all.

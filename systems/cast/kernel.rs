@@ -2,6 +2,8 @@
 //!
 //! Compiled anew for each set of instructions; a product is always rounded before it is added to, so that no bit depends on
 //! which set it is.
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
+#![allow(clippy::needless_range_loop, reason = "sixteen lanes at once, by their number")]
 
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x4, f32x8, u32x16};
 use glam::Vec4;
@@ -20,7 +22,7 @@ const BRICK_BITS: u32 = CELLS.trailing_zeros();
 #[derive(Clone, Copy)]
 pub struct Gel<'a, T> {
     /// The gel.
-    pub gel: TexelSlices<'a, T>,
+    pub texels: TexelSlices<'a, T>,
     /// The ambient part of its colour, where it is apart.
     pub ambient: Option<TexelSlices<'a, T>>,
     /// Which cells are interesting; `None`: all.
@@ -36,7 +38,6 @@ struct Places {
 }
 
 impl Places {
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
     fn at(tile: &Tile, k: i64, counts: [usize; 3]) -> Self {
         let steps = k.wrapping_sub(tile.middle);
@@ -59,7 +60,6 @@ impl Places {
     }
 
     /// Of rows of `row` places and slices of `slice` of them, the place of each ray's cell in its brick.
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
     fn cells(&self, row: u32, slice: u32) -> [u32; LANES] {
         let mut cells = [0; LANES];
@@ -71,7 +71,6 @@ impl Places {
     }
 
     /// Where in its cell each ray is, 0..1, on one axis.
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
     fn parts(&self, axis: usize) -> [f32; LANES] {
         let mut parts = [0.0; LANES];
@@ -85,7 +84,6 @@ impl Places {
 
 /// Which of `lanes` (all inside the grid) lie in interesting cells at sample `k`, and what those see: associated RGBA per
 /// opacity unit; of its reflected part `fade` is left.
-#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
 pub fn meet<S: Simd, T: Texel>(
     simd: S,
@@ -95,7 +93,7 @@ pub fn meet<S: Simd, T: Texel>(
     (k, lanes): (i64, Lanes),
     seen: &mut [Vec4; LANES],
 ) -> Lanes {
-    let places = Places::at(tile, k, gel.gel.counts());
+    let places = Places::at(tile, k, gel.texels.counts());
     let cells = places.cells(CELLS as u32, (CELLS * CELLS) as u32);
     let (mut met, mut stored) = (0, [EMPTY; LANES]);
     // Neighbours lie in one brick or in few.
@@ -105,7 +103,7 @@ pub fn meet<S: Simd, T: Texel>(
         let entry = places.entries[left.trailing_zeros() as usize];
         let same = entries.simd_eq(u32x16::splat(simd, entry)).to_bitmask() as Lanes & left;
         left &= !same;
-        let brick = gel.gel.stored(entry);
+        let brick = gel.texels.stored(entry);
         let here = match gel.pyramid.map(|pyramid| pyramid.words(brick)) {
             Some(Some(words)) => same & interesting(words, &cells),
             Some(None) => 0,
@@ -122,7 +120,7 @@ pub fn meet<S: Simd, T: Texel>(
     for lane in each(met) {
         let part = [parts[0][lane], parts[1][lane], parts[2][lane]];
         let first = first[lane] as usize;
-        let lit = sample(simd, gel.gel.texels(stored[lane]), first, part);
+        let lit = sample(simd, gel.texels.texels(stored[lane]), first, part);
         seen[lane] = match (fade, gel.ambient) {
             (Some(fade), Some(ambient)) => {
                 let ambient = sample(simd, ambient.texels(stored[lane]), first, part);
@@ -135,7 +133,6 @@ pub fn meet<S: Simd, T: Texel>(
 }
 
 /// Which of sixteen cells of a brick are interesting, by its words; a cell is counted `(z · 8 + y) · 8 + x`.
-#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
 fn interesting(words: &[u64; CELLS], cells: &[u32; LANES]) -> Lanes {
     let mut set = 0;
@@ -147,7 +144,6 @@ fn interesting(words: &[u64; CELLS], cells: &[u32; LANES]) -> Lanes {
 }
 
 /// Tri-linear interpolation in the cell whose first texel is `first`: two texels at once, the axes y and z before x.
-#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
 fn sample<S: Simd, T: Texel>(
     simd: S,

@@ -90,7 +90,7 @@ impl Bundle {
         let fastest = step.iter().map(|step| step.unsigned_abs()).max().unwrap_or(0).max(1);
         // Rounding moves each end by less than a unit.
         let radius = (spread + 8) as f64 / unit;
-        let reaching = pyramid.and_then(|pyramid| pyramid.reaching(radius));
+        let reaching = pyramid.and_then(|_| PyramidSlices::reaching(radius));
         Self { at, step, radius, per_cell: unit / fastest as f64, reaching }
     }
 
@@ -175,7 +175,7 @@ impl<T: Texel> Media for Medium<'_, T> {
                 .fold(0, |set, lane| set | 1 << lane)
                 & lanes;
         }
-        let gel = kernel::Gel { gel: self.gel, ambient: self.ambient, pyramid: self.pyramid };
+        let gel = kernel::Gel { texels: self.gel, ambient: self.ambient, pyramid: self.pyramid };
         let fade = self.cue.map(|cue| cue.factor((k as f64 + 0.5) * self.distance) as f32);
         let (tile, seen) = (&entered.tile, &mut entered.seen);
         let met =

@@ -154,7 +154,7 @@ fn boxed_rows(array: &SampleArray, lattice: &Lattice<'_>, y: usize, rows: &mut [
     }
     let across = array.layout.blocks()[0];
     for (down, row) in rows.chunks_exact_mut(width).enumerate() {
-        let split = |row: usize| &array.splits[row * across + first - 1..][..width + 1];
+        let split = |row: usize| &array.splits[row * across + first - 1..][..=width];
         let splits = [split(y + down + first - 1), split(y + down + first)];
         let line = |row: usize| &lines[(down + row) * width..][..width];
         let (above, own, below) = (line(0), line(1), line(2));

@@ -47,7 +47,7 @@ impl Near {
     }
 
     /// Which bits tell of interesting cells within `reach` cells; `None` where none reach so far.
-    pub fn reaching(&self, reach: f64) -> Option<usize> {
+    pub fn reaching(reach: f64) -> Option<usize> {
         REACHES.iter().position(|&within| reach <= within as f64)
     }
 
@@ -161,10 +161,7 @@ mod tests {
                 assert_eq!(found, expected, "{cell:?} within {reach}");
             }
         }
-        assert_eq!(
-            [1.0, 2.0, 2.1, 4.0].map(|r| near.reaching(r)),
-            [Some(0), Some(0), Some(1), Some(1)]
-        );
-        assert_eq!(near.reaching(4.1), None);
+        assert_eq!([1.0, 2.0, 2.1, 4.0].map(Near::reaching), [Some(0), Some(0), Some(1), Some(1)]);
+        assert_eq!(Near::reaching(4.1), None);
     }
 }
