@@ -65,6 +65,7 @@
 //! | `scene` | TOML to a world of entities |
 //! | `systems` | the stages, a folder each |
 //! | `renderer` | the front door: a world in, a picture out |
+//! | `sequence` | pictures in a row: turns, keyframes, encoding beside rendering |
 //! | `prelude` | what a caller needs of all rooms |
 //!
 //! # The walk of a voxel
@@ -92,6 +93,15 @@
 //! the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the
 //! sample array to
 //! the picture, and [`formats::pictures`] writes it.
+//!
+//! # The walk of a sequence
+//!
+//! A [`sequence::film::Film`] is a scene and how it moves. For each picture it states a few values as `--set` would and
+//! [states](scene::Scene::restate) the scene again, but for what was read before; the components go into the one world,
+//! whose products stay, so the schedule makes again what they touch. Pictures go through a bounded channel to an encoder
+//! ([`sequence::pipeline`]): frames as PNGs, or a clip of [`formats::moving`]. A frame's file says what it shows, so no
+//! record of what is done can be wrong, however a run ended; nothing is learned from one frame for the next, so a frame
+//! depends neither on shards nor on what was rendered before it.
 //!
 //! # Where this differs from the paper, and why
 //!
@@ -171,6 +181,7 @@ pub mod renderer;
 pub mod resolve;
 pub mod scene;
 pub mod schedule;
+pub mod sequence;
 pub mod shared;
 #[path = "../systems/mod.rs"]
 pub mod systems;

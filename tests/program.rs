@@ -1,5 +1,7 @@
 //! The real program: exit codes, sentences, files that appear whole or not at all, equal bytes.
 
+#[path = "program/animate.rs"]
+mod animate;
 #[path = "program/bad_input.rs"]
 mod bad_input;
 #[path = "program/inquiries.rs"]

@@ -12,7 +12,7 @@ use super::limit::Limit;
 use super::raw_header::RawHeader;
 
 /// All flags of all verbs.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Flags")]
 pub struct Flags {
     /// The file to write; its extension says the format (.png .exr .tiff .npy); - is standard output (a PNG)

@@ -3,6 +3,9 @@
 //! Flags mean the same for every verb and stand in any place. Results go to standard output, everything else to
 //! standard error. Exit codes: 0 done, 1 failed, 2 misused, 130 interrupted.
 
+mod animate;
+mod animate_stats;
+mod assemble;
 mod bytes;
 mod compare;
 mod empty;
@@ -10,11 +13,15 @@ mod escaped;
 mod excerpt;
 mod failure;
 mod flags;
+mod frame_progress;
 mod info;
 mod info_picture;
 mod interrupt;
 mod limit;
+mod listing;
 mod memory;
+mod motion;
+mod noted;
 mod outputs;
 mod plan;
 mod progress;
@@ -27,6 +34,7 @@ mod schema;
 mod sentence;
 mod stats;
 mod table;
+mod target;
 mod trace;
 mod verb_first;
 
@@ -44,6 +52,7 @@ Examples:
   gelray render -o head.png                          the embedded scene `head`
   gelray render scene.toml -o out.exr --stats out.json
   gelray render -o big.png --size 1520x1520 --set observer.view.azimuth=60
+  gelray animate -o turn.gif                         a full turn
   gelray plan scene.toml                             what would run, and how many bytes it takes
   gelray compare fast.png exact.png -o where.png     how far two images are apart, and where
 
@@ -68,6 +77,23 @@ enum Verb {
     Render {
         /// A scene file, or the name of an embedded scene [default: head]
         scene: Option<OsString>,
+    },
+    /// Renders a sequence: frames, or an animation in one file
+    #[command(after_help = animate::EXAMPLES)]
+    Animate {
+        /// A scene file, or the name of an embedded scene [default: head]
+        scene: Option<OsString>,
+        #[command(flatten)]
+        motion: motion::Motion,
+    },
+    /// Makes one animation of finished frames
+    #[command(after_help = assemble::EXAMPLES)]
+    Assemble {
+        /// The folder of the frames, or their manifest
+        frames: std::path::PathBuf,
+        /// Frames a second [default: as the frames were rendered for]
+        #[arg(long, value_name = "RATE", value_parser = gelray::formats::moving::Rate::parse)]
+        fps: Option<gelray::formats::moving::Rate>,
     },
     /// Tells which systems would run, which not and why, and how many bytes they take
     Plan {
@@ -96,8 +122,10 @@ enum Verb {
 }
 
 /// The flags that each verb has a use for, beside those of all: what its help lists.
-const TAKES: [(&str, &[&str]); 6] = [
+const TAKES: [(&str, &[&str]); 8] = [
     ("render", render::TAKES),
+    ("animate", animate::TAKES),
+    ("assemble", assemble::TAKES),
     ("plan", plan::TAKES),
     ("compare", compare::TAKES),
     ("info", info::TAKES),
@@ -147,6 +175,8 @@ fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
     flags.set_threads()?;
     match verb {
         Verb::Render { scene } => render::run(scene.as_deref(), flags),
+        Verb::Animate { scene, motion } => animate::run(scene.as_deref(), &motion, flags),
+        Verb::Assemble { frames, fps } => assemble::run(&frames, fps, flags),
         Verb::Plan { scene } => plan::run(scene.as_deref(), flags),
         Verb::Compare { a, b } => compare::run(&a, &b, flags),
         Verb::Info { file } => info::run(&file, flags),

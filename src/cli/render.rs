@@ -19,6 +19,7 @@ use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::memory::{self, Allowed};
+use super::noted::notes;
 use super::progress::Progress;
 use super::results::Results;
 use super::sentence::{DATA, sentence};
@@ -34,7 +35,8 @@ Examples:
   gelray render -o head.png --set head.classify.iso.0.value=1200 --set observer.view.azimuth=60
   gelray render -o head.png --rays rays.png --stats head.json --trace spans.json";
 
-const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// The version of gelray.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Flags that have a use here.
 pub const TAKES: &[&str] =
@@ -86,7 +88,7 @@ fn encoded(
     let _span = tracing::info_span!("encode").entered();
     let start = Instant::now();
     let mut results = Results::default();
-    results.picture(out, &made.frame.0, &notes(scene, made, flags)?)?;
+    results.picture(out, &made.frame.0, &notes(scene, &made.counts, flags, None)?)?;
     if let Some(path) = &flags.rays {
         let array = &made.samples.0;
         let size = array.layout.size.map(|n| n * POSITIONS);
@@ -105,10 +107,7 @@ pub fn open(scene: Option<&OsStr>) -> Result<Source, Error> {
 /// A fault that `--set` brought in is a misuse.
 pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
     let _span = tracing::info_span!("load").entered();
-    let mut changes = flags.set.clone();
-    if let Some([width, height]) = flags.size {
-        changes.push(format!("{}.view.size=[{width}, {height}]", view_name(&source.text)));
-    }
+    let changes = changes(source, flags);
     let data = flags.data_folders();
     let allowed = memory::allowed(flags, 0);
     let most = allowed.map(Allowed::more);
@@ -119,13 +118,27 @@ pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
         },
     )?;
     outputs::spare(flags, &scene.files)?;
+    warn(&scene, flags);
+    Ok(scene)
+}
+
+/// Says what was guessed or replaced.
+pub fn warn(scene: &Scene, flags: &Flags) {
     for warning in scene.warnings.iter().filter(|_| !flags.quiet) {
         let missing = |file: &String| warning.contains(&format!("`{file}`"));
         let remedy = if scene.missing.iter().any(missing) { DATA } else { "" };
         let separator = if remedy.is_empty() { "" } else { "; " };
         tell(format_args!("warning: {warning}{separator}{remedy}"));
     }
-    Ok(scene)
+}
+
+/// The changes of a scene that flags ask for.
+pub fn changes(source: &Source, flags: &Flags) -> Vec<String> {
+    let mut changes = flags.set.clone();
+    if let Some([width, height]) = flags.size {
+        changes.push(format!("{}.view.size=[{width}, {height}]", view_name(&source.text)));
+    }
+    changes
 }
 
 /// The name of the scene's view: as stated, or what a view without a name is called.
@@ -143,7 +156,7 @@ fn view_name(text: &str) -> String {
 }
 
 /// Whose fault an error is: that of `--set` if it stands in a line that is not the scene's own.
-fn blame(error: Error, source: &Source) -> Failure {
+pub fn blame(error: Error, source: &Source) -> Failure {
     let Error::Scene(fault) = &error else { return error.into() };
     let changed = || {
         let (text, span) = (&fault.text, fault.span.as_ref()?);
@@ -189,22 +202,6 @@ impl Rendered {
         let counts = Counted::of(world, samples.0.counts, frame.0.size);
         Ok(Self { frame: frame.clone(), samples: samples.clone(), counts })
     }
-}
-
-/// What the picture says of itself: all that it takes to make it again, and no clock time.
-fn notes(scene: &Scene, made: &Rendered, flags: &Flags) -> Result<Vec<(String, String)>, Failure> {
-    let counts = serde_json::to_string(&made.counts)
-        .map_err(|error| Failure::Said(format!("the counts cannot be noted ({error})")))?;
-    let mut notes = vec![
-        ("version", format!("gelray {VERSION}")),
-        ("scene", scene.name.clone()),
-        ("settings", scene.resolved.clone()),
-        ("counts", counts),
-    ];
-    if flags.exact {
-        notes.push(("exact", "true".to_owned()));
-    }
-    Ok(notes.into_iter().map(|(name, text)| (name.to_owned(), text)).collect())
 }
 
 fn stats<'a>(

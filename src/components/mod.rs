@@ -2,6 +2,7 @@
 //!
 //! Units are in the key or its description; colours are sRGB as written and linear once read ([`Color`]).
 
+mod animate;
 mod classify;
 mod clip;
 pub mod color;
@@ -15,6 +16,7 @@ mod texture;
 mod view;
 mod volume;
 
+pub use animate::{Animate, Ease, Keyed, Track};
 pub use classify::{Classify, Contour, Level, Material as ClassifyMaterial, Tissue, TransferPoint};
 pub use clip::Clip;
 pub use color::Color;
@@ -28,7 +30,7 @@ pub use view::View;
 pub use volume::{OpacityUnit, Volume};
 
 /// The name of an entity, unique in its scene.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Name(pub String);
 
 /// The place of an entity in its scene: ties in depth are broken by it, and matting follows it.

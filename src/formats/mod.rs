@@ -14,6 +14,7 @@ mod survey;
 mod hostile_files;
 #[cfg(test)]
 mod made;
+pub mod moving;
 pub mod pictures;
 #[cfg(test)]
 mod real_files;

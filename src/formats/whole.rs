@@ -74,6 +74,22 @@ impl Whole {
     }
 }
 
+/// Writes the file at `path` by way of a program that takes a file's name: `write` is given that of a temporary file
+/// beside `path`, which is put in place when it has returned `Ok`, and removed where it has not.
+pub fn write_by_name(
+    path: &Path,
+    write: impl FnOnce(&Path) -> Result<(), Failure>,
+) -> Result<(), Error> {
+    let made = || -> Result<(), Failure> {
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let temporary = part::of(&folder_of(&target))?;
+        write(temporary.path())?;
+        temporary.persist(target)?;
+        Ok(())
+    };
+    made().map_err(|failure| unwritable(path, failure))
+}
+
 fn unwritable(path: &Path, failure: Failure) -> Error {
     match failure.downcast::<Error>() {
         Ok(error) => *error,

@@ -8,3 +8,4 @@ pub mod histogram;
 mod isovalues;
 pub mod sigma;
 mod ssim;
+pub mod stopwatch;

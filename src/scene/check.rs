@@ -16,7 +16,7 @@ pub(super) struct Wrong {
     pub problem: String,
 }
 
-fn wrong(at: impl Into<String>, problem: impl Into<String>) -> Result<(), Wrong> {
+pub(super) fn wrong(at: impl Into<String>, problem: impl Into<String>) -> Result<(), Wrong> {
     Err(Wrong { at: at.into(), problem: problem.into() })
 }
 

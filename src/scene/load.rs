@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hecs::World;
 
 use super::error::Text;
+use super::kept::Kept;
 use super::loading::{Folders, Loading};
 use super::parse::{ParsedScene, parse};
 use super::source::Source;
@@ -50,32 +51,64 @@ pub fn load_within(
     exact: bool,
     most_bytes: Option<u64>,
 ) -> Result<Scene, Error> {
+    let (source, data) = (source.clone(), data.to_vec());
+    let loads = Loads { source, data, exact, most_bytes };
+    load_keeping(&loads, overrides, &mut Kept::default())
+}
+
+/// How a scene is loaded, whatever is set in it: the arguments of [`load_within`].
+#[derive(Debug, Clone)]
+pub struct Loads {
+    /// Where the scene's text comes from.
+    pub source: Source,
+    /// Folders of data.
+    pub data: Vec<PathBuf>,
+    /// Whether the view takes the settings of [`Sampling::exact`].
+    pub exact: bool,
+    /// The most bytes of what is read.
+    pub most_bytes: Option<u64>,
+}
+
+/// [`load_within`], but that what is read stays in `kept`, for [`Scene::restate`].
+pub fn load_keeping(loads: &Loads, overrides: &[String], kept: &mut Kept) -> Result<Scene, Error> {
+    let source = &loads.source;
     let resolved = overrides::apply(&source.name, &source.text, overrides)?;
     // Lines are those of the changed text, which the file on disk need not have.
     let changed = resolved != source.text;
-    let blamed = |error| match error {
-        Error::Scene(fault) if changed => {
-            Error::Scene(Box::new(SceneError { blame: Blame::Overridden, ..*fault }))
-        }
-        error => error,
-    };
-    let text = Text { file: &source.name, text: &resolved };
-    let loading = read(text, source, data, exact, most_bytes).map_err(blamed)?;
+    let mut loading = stated(&resolved, loads, kept).map_err(|error| blamed(error, changed))?;
+    loading.resolve().map_err(|error| blamed(error, changed))?;
+    if loads.exact {
+        take_exact_settings(&mut loading.world);
+    }
     let stem = Path::new(&source.name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let Loading { world, warnings, missing, files, .. } = loading;
     Ok(Scene { world, warnings, missing, files, name: stem.unwrap_or_default(), resolved })
 }
 
-/// The scene of a text, with everything read that it names and filled in that it leaves out.
-fn read<'t>(
-    text: Text<'t>,
-    source: &Source,
-    data: &[PathBuf],
-    exact: bool,
-    most_bytes: Option<u64>,
+/// A scene's text after its overrides: what [`Scene::resolved`] is, without a file being read.
+pub fn overridden(source: &Source, overrides: &[String]) -> Result<String, Error> {
+    Ok(overrides::apply(&source.name, &source.text, overrides)?)
+}
+
+/// A fault of a text that overrides have changed may be theirs.
+pub(super) fn blamed(error: Error, changed: bool) -> Error {
+    match error {
+        Error::Scene(fault) if changed => {
+            Error::Scene(Box::new(SceneError { blame: Blame::Overridden, ..*fault }))
+        }
+        error => error,
+    }
+}
+
+/// The scene of a text, with everything read that it names, and nothing filled in that it leaves out.
+pub(super) fn stated<'t>(
+    resolved: &'t str,
+    loads: &'t Loads,
+    kept: &'t mut Kept,
 ) -> Result<Loading<'t>, Error> {
-    let ParsedScene { text, world, entries } = parse(text)?;
-    let folders = Folders { scene: source.folder(), data: data.to_vec() };
+    let Loads { source, data, most_bytes, .. } = loads;
+    let ParsedScene { text, world, entries } = parse(Text { file: &source.name, text: resolved })?;
+    let folders = Folders { scene: source.folder(), data: data.clone() };
     let mut loading = Loading {
         text,
         world,
@@ -85,19 +118,16 @@ fn read<'t>(
         missing: Vec::new(),
         files: Vec::new(),
         bytes: 0,
-        most_bytes,
+        most_bytes: *most_bytes,
+        kept,
     };
     volume::read(&mut loading)?;
     textures::read(&mut loading)?;
-    loading.resolve()?;
-    if exact {
-        take_exact_settings(&mut loading.world);
-    }
     Ok(loading)
 }
 
 /// Replaces what the view states by the settings of [`Sampling::exact`].
-fn take_exact_settings(world: &mut World) {
+pub(super) fn take_exact_settings(world: &mut World) {
     for sampling in world.query_mut::<&mut Sampling>() {
         *sampling = sampling.exact();
     }

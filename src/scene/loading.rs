@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hecs::World;
 
 use super::error::Text;
+use super::kept::Kept;
 use super::parse::Entry;
 use crate::error::{Error, SceneError};
 use crate::resolve::{Fault, resolve};
@@ -24,6 +25,8 @@ pub(super) struct Loading<'t> {
     pub bytes: u64,
     /// The most bytes that what is read may take; `None`: as many as there are.
     pub most_bytes: Option<u64>,
+    /// What an earlier loading left, and this one leaves for the next.
+    pub kept: &'t mut Kept,
 }
 
 impl Loading<'_> {

@@ -4,15 +4,18 @@
 //! ([`schema`] is made of it) is where a component is added. Every error points to its line and column.
 
 mod check;
+mod check_animate;
 mod entity;
 mod error;
 mod grammar;
 mod handed_over;
+mod kept;
 mod load;
 mod loading;
 mod nearest;
 mod overrides;
 mod parse;
+mod restate;
 mod source;
 mod table;
 #[cfg(test)]
@@ -21,6 +24,7 @@ mod textures;
 mod volume;
 
 pub use handed_over::check_world;
-pub use load::{Scene, load, load_within};
+pub use kept::Kept;
+pub use load::{Loads, Scene, load, load_keeping, load_within, overridden};
 pub use source::{EMBEDDED, Source};
 pub use table::schema;

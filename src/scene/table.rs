@@ -16,8 +16,8 @@ use super::check::Check;
 use super::error::Fault;
 use super::grammar;
 use crate::components::{
-    CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon, Projects,
-    Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
+    Animate, CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon,
+    Projects, Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -37,7 +37,7 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 17] = [
+pub(super) static COMPONENTS: [Row; 18] = [
     row::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
@@ -55,6 +55,7 @@ pub(super) static COMPONENTS: [Row; 17] = [
     row::<View>("view", &[]),
     row::<Sampling>("sampling", &["view"]),
     row::<DepthCue>("depth_cue", &["view"]),
+    row::<Animate>("animate", &["volume", "polygon", "mesh", "light", "texture", "view"]),
 ];
 
 impl Row {

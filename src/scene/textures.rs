@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::kept::KeptPicture;
 use super::loading::Loading;
 use crate::components::{Projects, Texture, Textured};
 use crate::error::Error;
@@ -24,7 +25,7 @@ pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
         entries.into_iter().partition(|&entry| named.contains(&loading.entries[entry].name));
     for entry in read {
         if let Some(texture) = loading.get::<Texture>(entry) {
-            let picture = picture(loading, entry, &texture)?;
+            let picture = kept_or_read(loading, entry, &texture)?;
             loading.add(entry, (picture,));
         }
     }
@@ -43,6 +44,21 @@ fn warn_of(unread: &[usize], loading: &mut Loading) {
         (&loading.entries[first].name, "state `textured` or `projects`, or take it away");
     let warning = format!("entity `{first}` {more}; {remedy}");
     loading.warnings.push(warning);
+}
+
+/// The picture that an earlier loading read; else it is read, and kept for the next.
+fn kept_or_read(loading: &mut Loading, entry: usize, texture: &Texture) -> Result<Picture, Error> {
+    let name = loading.entries[entry].name.clone();
+    if let Some(kept) = loading.kept.pictures.get(&name).filter(|kept| kept.stated == *texture) {
+        loading.files.extend(kept.files.iter().cloned());
+        return Ok(kept.picture.clone());
+    }
+    let before = loading.files.len();
+    let picture = picture(loading, entry, texture)?;
+    let files = loading.files[before..].to_vec();
+    let kept = KeptPicture { stated: texture.clone(), picture: picture.clone(), files };
+    loading.kept.pictures.insert(name, kept);
+    Ok(picture)
 }
 
 /// What a texture of the scene holds: its formula, its file, or what stands in for its file.

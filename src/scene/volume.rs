@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
+use super::kept::KeptVolume;
 use super::loading::Loading;
 use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
-use crate::measure::sigma::sigma;
 use crate::phantom;
 use crate::volume::grid::{Grid, Scalars};
 
@@ -17,7 +17,7 @@ pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
 
 fn read_and_place(loading: &mut Loading, entry: usize) -> Result<(), Error> {
     let Some(volume) = loading.get::<Volume>(entry) else { return Ok(()) };
-    let (read, stands_in) = voxels(loading, entry, &volume)?;
+    let (read, stands_in) = kept_or_read(loading, entry, &volume)?;
     for warning in read.warnings {
         loading.warn(entry, warning);
     }
@@ -46,6 +46,26 @@ fn read_and_place(loading: &mut Loading, entry: usize) -> Result<(), Error> {
             Ok(())
         }
     }
+}
+
+/// The voxels that an earlier loading read, wherever they are placed now; else they are read, and kept for the next.
+fn kept_or_read(
+    loading: &mut Loading,
+    entry: usize,
+    volume: &Volume,
+) -> Result<(Loaded, bool), Error> {
+    let stated = Volume { center: None, opacity_unit_mm: None, ..volume.clone() };
+    let name = loading.entries[entry].name.clone();
+    if let Some(kept) = loading.kept.volumes.get(&name).filter(|kept| kept.stated == stated) {
+        loading.files.extend(kept.files.iter().cloned());
+        return Ok((kept.loaded.clone(), kept.stands_in));
+    }
+    let before = loading.files.len();
+    let (loaded, stands_in) = voxels(loading, entry, volume)?;
+    let files = loading.files[before..].to_vec();
+    let kept = KeptVolume { stated, loaded: loaded.clone(), stands_in, files };
+    loading.kept.volumes.insert(name, kept);
+    Ok((loaded, stands_in))
 }
 
 /// The voxels of the file, or of what stands in for it.
@@ -129,13 +149,13 @@ fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(
 
 /// Levels in standard deviations as numbers.
 fn in_numbers(
-    loading: &Loading,
+    loading: &mut Loading,
     entry: usize,
     stated: Classify<Level>,
     scalars: &Scalars,
 ) -> Result<Classify, Error> {
     let any = stated.iso.iter().any(|c| matches!(c.value, Level::Sigma(_)));
-    let statistics = if any { sigma(scalars) } else { None };
+    let statistics = if any { loading.kept.sigma(scalars) } else { None };
     let number = |(i, contour): (usize, Contour<Level>)| {
         let value = match (contour.value, statistics) {
             (Level::Value(value), _) => Some(value),
