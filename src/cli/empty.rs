@@ -6,7 +6,7 @@ use gelray::view::samples::SampleArray;
 use gelray::volume::grid::Scalars;
 use hecs::World;
 
-use super::info::number;
+use super::number::number;
 
 /// A sentence about a picture in which no ray met anything; `None` if one did.
 pub fn warning(world: &World, samples: &SampleArray) -> Option<String> {

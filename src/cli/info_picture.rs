@@ -7,7 +7,7 @@ use gelray::formats::read_picture;
 use gelray::view::picture::Picture;
 
 use super::failure::Failure;
-use super::info::number;
+use super::number::number;
 use super::table::table;
 
 /// What a picture holds, a fact a line.

@@ -6,6 +6,7 @@
 mod animate;
 mod animate_stats;
 mod assemble;
+mod bound;
 mod bytes;
 mod compare;
 mod empty;
@@ -22,6 +23,7 @@ mod listing;
 mod memory;
 mod motion;
 mod noted;
+mod number;
 mod outputs;
 mod plan;
 mod progress;

@@ -10,11 +10,12 @@ use gelray::view::extent::Extent;
 use gelray::volume::scene_volumes::visible;
 use hecs::World;
 
+use super::bound::{check_memory, jobs, most_bytes};
 use super::bytes::human;
 use super::failure::Failure;
 use super::flags::Flags;
 use super::table::table;
-use super::{memory, outputs, render, stats};
+use super::{outputs, render, stats};
 
 /// Flags that have a use here.
 pub const TAKES: &[&str] = &["--output", "--size", "--set", "--exact", "--max-memory"];
@@ -30,13 +31,6 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     check_memory(&schedule, &scene.world, flags)
 }
 
-/// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
-pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
-    let taken = stats::voxels(world);
-    let needed = most_bytes(schedule, world) - taken;
-    memory::allowed(flags, taken).map_or(Ok(()), |allowed| allowed.check(needed, taken))
-}
-
 /// How many samples the view's rays can take, were nothing empty: a scene without a volume takes none.
 fn samples(world: &World) -> Option<String> {
     let smallest =
@@ -49,16 +43,6 @@ fn samples(world: &World) -> Option<String> {
     Some(format!(
         "A ray has up to {a_ray} samples, {distance} apart; at a ray a pixel up to {all:.3e} in all, less what is empty or hidden.\n"
     ))
-}
-
-fn jobs(schedule: &Schedule) -> impl Iterator<Item = &Job> {
-    schedule.waves().iter().flatten()
-}
-
-/// The voxels that were read, and the most that systems can make of them.
-fn most_bytes(schedule: &Schedule, world: &World) -> u64 {
-    let plans = jobs(schedule).map(|job| (job.plan)(world).bytes());
-    plans.fold(stats::voxels(world), u64::saturating_add)
 }
 
 fn words(schedule: &Schedule, world: &World) -> String {

@@ -25,7 +25,7 @@ use super::results::Results;
 use super::sentence::{DATA, sentence};
 use super::stats::{Bytes, Counted, Seconds, Stats};
 use super::trace::Trace;
-use super::{empty, outputs, plan};
+use super::{bound, empty, outputs};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -177,7 +177,7 @@ fn run_systems(
     flags: &Flags,
 ) -> Result<Vec<Ran>, Failure> {
     let schedule = Schedule::new(JOBS)?;
-    plan::check_memory(&schedule, world, flags)?;
+    bound::check_memory(&schedule, world, flags)?;
     interrupt.work_begins();
     let _progress = Progress::show(&interrupt.watch, flags);
     let ran = schedule.run(world, &interrupt.watch)?;

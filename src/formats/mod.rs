@@ -1,5 +1,6 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
+mod loaded;
 mod mrc;
 mod nifti;
 mod nrrd;
@@ -23,34 +24,14 @@ pub mod whole;
 use std::iter;
 use std::path::Path;
 
+pub use loaded::{Loaded, Voxels};
 pub use stated::Stated;
 pub use survey::Survey;
 
 use crate::error::Error;
 use crate::view::picture::Picture;
-use crate::volume::grid::{Grid, Painted, Scalars};
 use stream::Stream;
 use survey::Promise;
-
-/// What a volume file held: where its voxels are, and what they are.
-#[derive(Debug, Clone)]
-pub struct Loaded {
-    /// Where the voxels are.
-    pub grid: Grid,
-    /// What they are.
-    pub voxels: Voxels,
-    /// Sentences about what was repaired or guessed.
-    pub warnings: Vec<String>,
-}
-
-/// The voxels of a file.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Voxels {
-    /// One number a voxel: to be classified and shaded.
-    Scalars(Scalars),
-    /// RGBA: classified and shaded already.
-    Painted(Painted),
-}
 
 /// A format of volume files: a row of [`FORMATS`].
 pub struct Format {

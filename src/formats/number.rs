@@ -2,9 +2,10 @@
 
 use bytemuck::Pod;
 
+use super::Voxels;
 use super::stream::Stream;
-use super::{Painted, Scalars, Voxels};
 use crate::shared::Shared;
+use crate::volume::grid::{Painted, Scalars};
 
 /// The type of a file's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

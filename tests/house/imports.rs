@@ -23,10 +23,19 @@ struct Tree {
 impl Imports {
     /// The imports of the library: without tests, the command line, and the two files at the root.
     pub fn of_the_library() -> Self {
-        let all: Vec<_> = files(&["src", "systems"]).into_iter().filter(is_library).collect();
+        Self::of(&files(&["src", "systems"]).into_iter().filter(is_library).collect::<Vec<_>>())
+    }
+
+    /// The imports of the program among its own files; the one at their root names all verbs, and they what it defines.
+    pub fn of_the_program() -> Self {
+        let verbs = files(&["src/cli"]).into_iter().filter(|file| file.path != "src/cli/mod.rs");
+        Self::of(&verbs.collect::<Vec<_>>())
+    }
+
+    fn of(all: &[File]) -> Self {
         let modules = all.iter().map(|file| (module(&file.path), file.path.clone())).collect();
         let mut tree = Tree { modules, handed_on: BTreeMap::new() };
-        for file in &all {
+        for file in all {
             let own = module(&file.path);
             let found = paths(&statements(&untested(file), true));
             let found = found.into_iter().filter_map(|path| tree.resolve(&own, &path));
@@ -35,7 +44,7 @@ impl Imports {
             tree.handed_on.insert(own, handed);
         }
         let mut named = BTreeMap::new();
-        for file in &all {
+        for file in all {
             named.insert(file.path.clone(), tree.named_by(file));
         }
         Self { named }

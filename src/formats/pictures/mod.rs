@@ -8,6 +8,7 @@ mod bands;
 pub mod encoded;
 pub mod exr;
 mod exr_blocks;
+mod format;
 pub mod jpeg;
 pub mod npy;
 pub mod png;
@@ -22,42 +23,16 @@ use std::io::Cursor;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::formats::whole::{Failure, Sink, Whole, check_writable, written_beside};
+use crate::formats::whole::{Whole, check_writable, written_beside};
 use crate::view::picture::Picture;
 
+pub(crate) use format::{MOST_PIXELS, checked_size, whole, wrong};
+pub use format::{Notes, PictureFormat, Reader, Writer};
 pub use ray_map::{ray_map_beside, write_ray_map};
-
-/// Named sentences that go with a picture (scene, settings, version, counts), in the order they are written.
-pub type Notes = [(String, String)];
-
-/// Makes a picture of a file's bytes; the failure is a sentence without a subject.
-pub type Reader = fn(&[u8]) -> Result<Picture, String>;
-
-/// Writes a picture and its notes.
-pub type Writer = fn(&mut dyn Sink, &Picture, &Notes) -> Result<(), Failure>;
-
-/// A format that pictures are read from, written to, or both.
-#[derive(Debug)]
-pub struct PictureFormat {
-    /// Its name, as sentences print it.
-    pub name: &'static str,
-    /// The ends of its files' names, in lower case; the first is the usual one.
-    pub extensions: &'static [&'static str],
-    /// How it is read, if it is.
-    pub read: Option<Reader>,
-    /// How it is written, if it is.
-    pub write: Option<Writer>,
-}
 
 /// Every known format of pictures.
 pub static PICTURE_FORMATS: [PictureFormat; 5] =
     [png::FORMAT, exr::FORMAT, tiff::FORMAT, npy::FORMAT, jpeg::FORMAT];
-
-/// The longest side of a picture that is read, in pixels.
-const LONGEST_SIDE: u64 = 65_536;
-
-/// The most pixels of a picture that is read: 16384², 4 GiB in memory.
-const MOST_PIXELS: u64 = 1 << 28;
 
 /// The longest file that is read: floats of the most pixels, and as much again.
 const LONGEST_FILE: u64 = MOST_PIXELS * 32;
@@ -161,29 +136,4 @@ fn checked(notes: &Notes) -> Result<Vec<(String, String)>, String> {
         }
     }
     Ok(notes.iter().map(|(name, text)| (name.clone(), text.replace('\0', "\u{fffd}"))).collect())
-}
-
-/// The size of a picture that a file's header states, if it is one that may be read.
-fn checked_size(width: u64, height: u64) -> Result<[usize; 2], String> {
-    let side = 1..=LONGEST_SIDE;
-    if side.contains(&width) && side.contains(&height) && width * height <= MOST_PIXELS {
-        return Ok([width as usize, height as usize]);
-    }
-    Err(format!(
-        "states a size of {width} × {height} pixels; sides of 1 to {LONGEST_SIDE} and at most {MOST_PIXELS} pixels are read: scale it down"
-    ))
-}
-
-/// A picture of as many pixels as its size needs.
-fn whole(size: [usize; 2], pixels: Vec<[f32; 4]>) -> Result<Picture, String> {
-    let found = pixels.len();
-    Picture::new(size, pixels).ok_or_else(|| {
-        let [width, height] = size;
-        format!("holds {found} pixels and its size of {width} × {height} needs another number; the file is damaged")
-    })
-}
-
-/// The sentence of a file that a decoder could not make sense of.
-fn wrong(name: &str, error: impl std::fmt::Display) -> String {
-    format!("is not a whole {name} file ({error}); make or fetch it again")
 }
