@@ -4,6 +4,8 @@
 mod animate;
 #[path = "program/bad_input.rs"]
 mod bad_input;
+#[path = "program/contact.rs"]
+mod contact;
 #[path = "program/inquiries.rs"]
 mod inquiries;
 #[path = "program/interrupted.rs"]

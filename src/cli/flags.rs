@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser};
+use gelray::components::Preset;
 
 use super::bytes;
 use super::failure::Failure;
@@ -24,6 +25,15 @@ pub struct Flags {
     /// Changes the scene: head.classify.iso.0.value=1200 (repeatable)
     #[arg(long, value_name = "ENTITY.COMPONENT.KEY=VALUE", global = true)]
     pub set: Vec<String>,
+    /// Of a volume without a scene: draws the surface of this value
+    #[arg(long, value_name = "VALUE", global = true, allow_hyphen_values = true, value_parser = value)]
+    pub iso: Option<f32>,
+    /// Of a volume without a scene: draws it by a classification of that name
+    #[arg(long, value_name = "NAME", global = true, conflicts_with = "iso", value_parser = Preset::named)]
+    pub preset: Option<Preset>,
+    /// Of a volume without a scene: writes the scene that was made for it
+    #[arg(long, value_name = "FILE.toml", global = true)]
+    pub save_scene: Option<PathBuf>,
     /// A folder to look for data in, before those of GELRAY_DATA (repeatable)
     #[arg(long, value_name = "DIR", global = true, value_parser = OsStringValueParser::new().try_map(folder))]
     pub data: Vec<PathBuf>,
@@ -60,10 +70,13 @@ pub struct Flags {
 }
 
 /// The flags that not every verb has a use for.
-pub const FOR_SOME: [&str; 10] = [
+pub const FOR_SOME: [&str; 13] = [
     "--output",
     "--size",
     "--set",
+    "--iso",
+    "--preset",
+    "--save-scene",
     "--exact",
     "--stats",
     "--trace",
@@ -80,6 +93,9 @@ impl Flags {
             self.output.is_some(),
             self.size.is_some(),
             !self.set.is_empty(),
+            self.iso.is_some(),
+            self.preset.is_some(),
+            self.save_scene.is_some(),
             self.exact,
             self.stats.is_some(),
             self.trace.is_some(),
@@ -101,6 +117,7 @@ impl Flags {
     pub fn outputs(&self) -> Vec<(&'static str, &Path)> {
         let named = [
             ("--output", &self.output),
+            ("--save-scene", &self.save_scene),
             ("--stats", &self.stats),
             ("--trace", &self.trace),
             ("--rays", &self.rays),
@@ -133,6 +150,11 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     sides.ok_or_else(|| {
         "pixels across and down are expected, each 1 to 16384, such as 380x380".to_owned()
     })
+}
+
+fn value(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| number.is_finite());
+    number.ok_or_else(|| "a value of the volume is expected, such as 300".to_owned())
 }
 
 fn folder(text: OsString) -> Result<PathBuf, String> {

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use gelray::formats::pictures::format_of;
-use gelray::formats::{Loaded, Voxels, is_headerless, read_volume};
+use gelray::formats::{Loaded, Voxels, is_headerless, is_volume, read_volume};
 use gelray::measure::histogram::{Histogram, histogram, suggested_isovalues};
 use gelray::measure::sigma::sigma;
 use gelray::phantom::phantom;
@@ -34,7 +34,7 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
     flags.refuse_others("info", TAKES)?;
     let path = find(file, flags);
     outputs::check(flags, &[&path])?;
-    if format_of(&path).is_some_and(|format| format.read.is_some()) {
+    if format_of(&path).is_some_and(|format| format.read.is_some()) && !is_volume(&path) {
         return outputs::print_or_write(&info_picture::words(&path)?, flags);
     }
     let name = file.to_string_lossy();
@@ -67,7 +67,7 @@ fn read(path: &Path, flags: &Flags) -> Result<Loaded, Failure> {
 }
 
 /// The file as given, or the first of that name in the folders of data.
-fn find(file: &OsStr, flags: &Flags) -> PathBuf {
+pub fn find(file: &OsStr, flags: &Flags) -> PathBuf {
     let given = PathBuf::from(file);
     let elsewhere = || {
         flags.data_folders().into_iter().map(|folder| folder.join(file)).find(|path| path.exists())

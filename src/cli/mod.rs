@@ -9,6 +9,8 @@ mod assemble;
 mod bound;
 mod bytes;
 mod compare;
+mod contact;
+mod convert;
 mod empty;
 mod escaped;
 mod excerpt;
@@ -52,6 +54,7 @@ use flags::Flags;
 const EXAMPLES: &str = "\
 Examples:
   gelray render -o head.png                          the embedded scene `head`
+  gelray render scan.nii.gz -o scan.png              a volume without a scene
   gelray render scene.toml -o out.exr --stats out.json
   gelray render -o big.png --size 1520x1520 --set observer.view.azimuth=60
   gelray animate -o turn.gif                         a full turn
@@ -77,7 +80,7 @@ enum Verb {
     /// Renders one image
     #[command(after_help = render::EXAMPLES)]
     Render {
-        /// A scene file, or the name of an embedded scene [default: head]
+        /// A scene file, the name of an embedded scene, or a volume [default: head]
         scene: Option<OsString>,
     },
     /// Renders a sequence: frames, or an animation in one file
@@ -99,7 +102,7 @@ enum Verb {
     },
     /// Tells which systems would run, which not and why, and how many bytes they take
     Plan {
-        /// A scene file, or the name of an embedded scene [default: head]
+        /// A scene file, the name of an embedded scene, or a volume [default: head]
         scene: Option<OsString>,
     },
     /// Tells the error between two images; with -o, an image of where they differ
@@ -114,6 +117,13 @@ enum Verb {
         /// A file, or `phantom:NAME`
         file: OsString,
     },
+    /// Writes a volume of any format that is read as NRRD
+    Convert {
+        /// A volume: a file, or the folder of a series
+        from: OsString,
+        /// The file to write, .nrrd
+        to: std::path::PathBuf,
+    },
     /// Lists the embedded scenes, or prints one
     Scenes {
         /// The name of an embedded scene
@@ -124,13 +134,14 @@ enum Verb {
 }
 
 /// The flags that each verb has a use for, beside those of all: what its help lists.
-const TAKES: [(&str, &[&str]); 8] = [
+const TAKES: [(&str, &[&str]); 9] = [
     ("render", render::TAKES),
     ("animate", animate::TAKES),
     ("assemble", assemble::TAKES),
     ("plan", plan::TAKES),
     ("compare", compare::TAKES),
     ("info", info::TAKES),
+    ("convert", convert::TAKES),
     ("scenes", scenes::TAKES),
     ("schema", schema::TAKES),
 ];
@@ -182,6 +193,7 @@ fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
         Verb::Plan { scene } => plan::run(scene.as_deref(), flags),
         Verb::Compare { a, b } => compare::run(&a, &b, flags),
         Verb::Info { file } => info::run(&file, flags),
+        Verb::Convert { from, to } => convert::run(&from, &to, flags),
         Verb::Scenes { name } => scenes::run(name.as_deref(), flags),
         Verb::Schema => schema::run(flags),
     }

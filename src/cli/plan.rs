@@ -15,15 +15,16 @@ use super::bytes::human;
 use super::failure::Failure;
 use super::flags::Flags;
 use super::table::table;
-use super::{outputs, render, stats};
+use super::{contact, outputs, render, stats};
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] = &["--output", "--size", "--set", "--exact", "--max-memory"];
+pub const TAKES: &[&str] =
+    &["--output", "--size", "--set", "--iso", "--preset", "--exact", "--max-memory"];
 
 /// Prints the plan of a scene.
 pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     flags.refuse_others("plan", TAKES)?;
-    let source = render::open(scene)?;
+    let source = contact::open(scene, flags)?;
     outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
     let scene = render::load(&source, flags)?;
     let schedule = Schedule::new(JOBS)?;

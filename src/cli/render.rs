@@ -25,12 +25,14 @@ use super::results::Results;
 use super::sentence::{DATA, sentence};
 use super::stats::{Bytes, Counted, Seconds, Stats};
 use super::trace::Trace;
-use super::{bound, empty, outputs};
+use super::{bound, contact, empty, outputs};
 
 pub const EXAMPLES: &str = "\
 Examples:
   gelray render -o head.png                          the embedded scene `head`
   gelray render minimal_4 -o ball.png --size 800x600
+  gelray render scan.nii.gz -o scan.png              a volume without a scene
+  gelray render scan.nrrd -o bone.png --iso 300 --save-scene bone.toml
   gelray render scene.toml -o out.exr --data ~/scans --exact
   gelray render -o head.png --set head.classify.iso.0.value=1200 --set observer.view.azimuth=60
   gelray render -o head.png --rays rays.png --stats head.json --trace spans.json";
@@ -53,7 +55,7 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
         ))
     })?;
     outputs::check_picture(out)?;
-    let source = open(scene)?;
+    let source = contact::open(scene, flags)?;
     outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
     let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
     let interrupt = Interrupt::listen();
@@ -62,6 +64,9 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     let ran = run_systems(&mut scene.world, &interrupt, flags)?;
     let made = Rendered::of(&scene.world)?;
     let (mut results, encode) = encoded(out, &scene, &made, flags)?;
+    if let Some(path) = &flags.save_scene {
+        results.text(path, &contact::saved(path, &scene))?;
+    }
     interrupt.watch.check()?;
     let total = start.elapsed().as_secs_f64();
     if let Some(path) = &flags.stats {
@@ -95,11 +100,6 @@ fn encoded(
         results.keep(ray_map_beside(path, size, &array.ray_map())?);
     }
     Ok((results, start.elapsed().as_secs_f64()))
-}
-
-/// The scene of an argument; without one, the first that is part of the program.
-pub fn open(scene: Option<&OsStr>) -> Result<Source, Error> {
-    Source::open(scene.unwrap_or(OsStr::new("head")))
 }
 
 /// Reads a scene with the changes that flags ask for, and says what was guessed or replaced.

@@ -44,6 +44,12 @@ impl Results {
         Ok(())
     }
 
+    /// Keeps a file of text.
+    pub fn text(&mut self, path: &Path, text: &str) -> Result<(), Error> {
+        self.keep(written_beside(path, |out| Ok(out.write_all(text.as_bytes())?))?);
+        Ok(())
+    }
+
     /// Keeps a file that is written already.
     pub fn keep(&mut self, file: Whole) {
         self.files.push(file);

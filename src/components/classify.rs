@@ -3,9 +3,9 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-use super::Color;
+use super::{Color, Colormap, Preset};
 
-/// A classification: exactly one of `iso`, `regions`, `transfer` or `materials`.
+/// A classification: exactly one of `iso`, `regions`, `transfer`, `materials`, `preset` or `colormap`.
 ///
 /// `L` is how the levels of contours are known: a [`Level`] as stated, a number once the volume is read.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
@@ -26,6 +26,23 @@ pub struct Classify<L = f32> {
     /// A mixture of materials after Drebin, Carpenter and Hanrahan 1988.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub materials: Vec<Material>,
+    /// One of the classifications that have names.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preset: Option<Preset>,
+    /// The colors of the field by name, with an opacity that rises across the window from 0 to `peak_opacity`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colormap: Option<Colormap>,
+    /// With `colormap`: the value in the middle of the window; default: the middle of all but the outermost hundredths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<f32>,
+    /// With `colormap`: the values that the colors span, above 0; default: as far as all but the outermost hundredths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub window: Option<f32>,
+    /// With `colormap`: the opacity at the window's end, per opacity unit; default 0.25.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub peak_opacity: Option<f32>,
 }
 
 /// The level of a contour, as a scene states it.

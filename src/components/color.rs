@@ -20,6 +20,12 @@ impl Color {
         Self(Vec3::from(srgb.map(to_linear)))
     }
 
+    /// The color of a number `0xrrggbb`, in sRGB; higher bits are of no account.
+    #[must_use]
+    pub fn from_number(number: u32) -> Self {
+        Self::from_srgb([16, 8, 0].map(|shift| (number >> shift & 0xff) as f32 / 255.0))
+    }
+
     /// To sRGB channels in 0..=1.
     #[must_use]
     pub fn to_srgb(self) -> [f32; 3] {

@@ -3,10 +3,21 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Many flat polygons as one entity: exactly one of `faces` (with `vertices`), `ellipsoid` or `prism`.
+/// Many flat polygons as one entity: exactly one of `file`, `faces` (with `vertices`), `ellipsoid` or `prism`.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
+    /// An STL, PLY or OBJ: a path, relative to the scene's folder or to the data folder. Its triangles are flat, each of one
+    /// normal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// With `file`: which way its axes run; default `lps`, as the world's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<Space>,
+    /// With `file`: world units (mm) in one of its units, above 0; default 1. A file in meters has 1000.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub unit_mm: Option<f64>,
     /// Vertices in world coordinates.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub vertices: Vec<[f64; 3]>,
@@ -19,6 +30,19 @@ pub struct Mesh {
     /// A closed prism.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prism: Option<Prism>,
+}
+
+/// Which way the axes of a file of a mesh run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Space {
+    /// Left, posterior, superior, as in DICOM, ITK and here.
+    Lps,
+    /// Right, anterior, superior, as in NIfTI and in scenes of 3D Slicer: x and y are turned over.
+    Ras,
+    /// Right, up, toward the observer, as in files of modelers: up becomes superior, and the front is seen.
+    #[serde(rename = "y-up")]
+    YUp,
 }
 
 /// An ellipsoid of `20 · 4^subdivisions` triangles, inscribed, with an optional smooth lumpiness.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 
-use super::made::gzip;
+use super::made::{gzip, pages, zlib};
 use super::stream::Stream;
 use super::{Stated, Voxels, read_stream};
 
@@ -30,7 +30,19 @@ fn sound() -> Vec<(&'static str, Vec<u8>)> {
     (map[64], map[68], map[72]) = (1, 2, 3);
     map[208..212].copy_from_slice(b"MAP ");
     map[212] = 0x44;
+    let meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 1 1 2\nDimSize = 2 3 2\nElementType = MET_SHORT\n";
+    let local = "ElementDataFile = LOCAL\n";
+    let text = "{'descr': '<i2', 'fortran_order': False, 'shape': (2, 3, 2), }\n";
+    let array = [b"\x93NUMPY\x01\x00", &[text.len() as u8, 0][..], text.as_bytes(), &[1; 24]];
     vec![
+        ("i.mha", [meta.as_bytes(), local.as_bytes(), &[1; 24]].concat()),
+        (
+            "j.mha",
+            [meta.as_bytes(), b"CompressedData = True\n", local.as_bytes(), &zlib(&[1; 24])]
+                .concat(),
+        ),
+        ("k.npy", array.concat()),
+        ("l.tif", pages(2)),
         ("a.nrrd", [start.as_bytes(), b"encoding: raw\n\n", &[1; 24]].concat()),
         ("b.nrrd", [start.as_bytes(), b"encoding: gzip\n\n", &gzip(&[1; 24])].concat()),
         (

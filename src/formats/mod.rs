@@ -1,21 +1,27 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
 mod loaded;
+mod dicom;
+mod metaimage;
 mod mrc;
 mod nifti;
 mod nrrd;
 mod number;
+mod numpy;
 mod part;
 mod raw;
 mod stated;
 mod stream;
 mod survey;
+mod tiff_stack;
+mod vti;
 
 #[cfg(test)]
 mod hostile_files;
 #[cfg(test)]
 mod made;
 pub mod moving;
+pub mod meshes;
 pub mod pictures;
 #[cfg(test)]
 mod real_files;
@@ -77,6 +83,41 @@ pub static FORMATS: &[Format] = &[
         promised: mrc::promised,
     },
     Format {
+        name: "DICOM",
+        extensions: &["dcm"],
+        recognizes: Some(dicom::recognizes),
+        read: dicom::read,
+        promised: dicom::promised,
+    },
+    Format {
+        name: "MetaImage",
+        extensions: &["mha", "mhd"],
+        recognizes: Some(metaimage::recognizes),
+        read: metaimage::read,
+        promised: metaimage::promised,
+    },
+    Format {
+        name: "NumPy",
+        extensions: &["npy"],
+        recognizes: Some(numpy::recognizes),
+        read: numpy::read,
+        promised: numpy::promised,
+    },
+    Format {
+        name: "TIFF",
+        extensions: &["tif", "tiff"],
+        recognizes: Some(tiff_stack::recognizes),
+        read: tiff_stack::read,
+        promised: tiff_stack::promised,
+    },
+    Format {
+        name: "VTK ImageData",
+        extensions: &["vti"],
+        recognizes: Some(vti::recognizes),
+        read: vti::read,
+        promised: vti::promised,
+    },
+    Format {
         name: "raw",
         extensions: &["raw", "raw.gz"],
         recognizes: None,
@@ -85,7 +126,8 @@ pub static FORMATS: &[Format] = &[
     },
 ];
 
-/// Reads a volume of any format in [`FORMATS`]: by what it starts with, else by how its name ends.
+/// Reads a volume of any format in [`FORMATS`]: by what it starts with, else by how its name ends; of a folder, the
+/// series of slices in it.
 ///
 /// A name that ends as a headerless file is believed, whatever its voxels look like. `stated` is what the scene says of
 /// the file: needed by headerless files, and its spacing replaces that of any file. Fails where the file is missing,
@@ -93,6 +135,9 @@ pub static FORMATS: &[Format] = &[
 pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
     let wrong = |problem| Error::format(path, problem);
     stated.check().map_err(wrong)?;
+    if path.is_dir() {
+        return dicom::read_folder(path, stated).map_err(wrong);
+    }
     let stream = Stream::open(path).map_err(|problem| Error::file(path, problem))?;
     read_stream(stream, path, stated).map_err(wrong)
 }
@@ -101,17 +146,32 @@ pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
 pub fn survey(path: &Path, stated: &Stated) -> Result<Survey, Error> {
     let wrong = |problem| Error::format(path, problem);
     stated.check().map_err(wrong)?;
+    if path.is_dir() {
+        let (bytes, files) = dicom::promised_of_folder(path).map_err(wrong)?;
+        return Ok(Survey { format: "DICOM", files, bytes });
+    }
     let stream = Stream::open(path).map_err(|problem| Error::file(path, problem))?;
     let (mut stream, format) = recognized(stream, path).map_err(wrong)?;
     let (bytes, beside) = (format.promised)(&mut stream, path, stated).map_err(wrong)?;
-    Ok(Survey { files: iter::once(path.into()).chain(beside).collect(), bytes })
+    let files = iter::once(path.into()).chain(beside).collect();
+    Ok(Survey { format: format.name, files, bytes })
+}
+
+/// Writes a volume as NRRD, whole or not at all: what is read again is the same voxels at the same places, bit for bit.
+pub fn write_volume(path: &Path, loaded: &Loaded) -> Result<(), Error> {
+    whole::write_whole(path, |sink| nrrd::write(sink, loaded))
 }
 
 /// Whether a file is a volume of a known format: by what it starts with, or by the name of a headerless one.
+///
+/// A TIFF or an array that is a picture is none.
 #[must_use]
 pub fn is_volume(path: &Path) -> bool {
     let head = || Stream::open(path).ok()?.inflated_if_gzip().ok()?.peek(HEAD).ok();
-    (is_headerless(path) && path.is_file()) || head().is_some_and(|head| by_head(&head).is_some())
+    let recognized = |head: Vec<u8>| {
+        by_head(&head).is_some() && (!tiff_stack::recognizes(&head) || tiff_stack::is_stack(path))
+    };
+    (is_headerless(path) && path.is_file()) || head().is_some_and(recognized)
 }
 
 /// Whether a file's name is that of a format without a header, which the scene has to state.
@@ -182,9 +242,9 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_is_not_a_file() {
+    fn a_folder_without_a_series_says_what_to_name() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(problem(folder.path()).contains("not a file"));
+        assert!(problem(folder.path()).contains("the folder that holds the series"));
     }
 
     #[test]

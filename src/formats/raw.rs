@@ -38,8 +38,10 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
 
 /// Bytes of the voxels that are stated; where too little is, whoever reads them says so.
 pub(super) fn promised(_: &mut Stream, _: &Path, stated: &Stated) -> Result<Promise, String> {
-    let (Some(size), Some(name)) = (stated.size, &stated.voxel_type) else { return Ok((0, None)) };
-    Ok((of_size(size, NumberType::named(name)?.bytes()), None))
+    let (Some(size), Some(name)) = (stated.size, &stated.voxel_type) else {
+        return Ok((0, Vec::new()));
+    };
+    Ok((of_size(size, NumberType::named(name)?.bytes()), Vec::new()))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Read};
 use std::path::Path;
 
 use bytemuck::Pod;
-use flate2::bufread::MultiGzDecoder;
+use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 
 /// No deflate stream inflates to more than this many times its length.
 const MOST_INFLATION: u64 = 1032;
@@ -19,6 +19,14 @@ enum Left {
     Exactly(u64),
     /// Those that a compressed file could inflate to.
     AtMost(u64),
+}
+
+impl Left {
+    /// What this many bytes could inflate to.
+    fn inflated(self) -> Self {
+        let (Self::Exactly(packed) | Self::AtMost(packed)) = self;
+        Self::AtMost(packed.saturating_mul(MOST_INFLATION))
+    }
 }
 
 /// A file, plain or inflating, read from start to end.
@@ -42,8 +50,12 @@ impl Stream {
         Ok(Self { reader: Box::new(BufReader::new(file)), left: Left::Exactly(found.len()) })
     }
 
+    /// A stream that has ended.
+    pub(super) fn empty() -> Self {
+        Self { reader: Box::new(io::empty()), left: Left::Exactly(0) }
+    }
+
     /// A stream of bytes in memory.
-    #[cfg(test)]
     pub(super) fn of(bytes: Vec<u8>) -> Self {
         let left = Left::Exactly(bytes.len() as u64);
         Self { reader: Box::new(Cursor::new(bytes)), left }
@@ -51,9 +63,15 @@ impl Stream {
 
     /// The rest of this stream, inflated.
     pub(super) fn inflated(self) -> Self {
-        let (Left::Exactly(packed) | Left::AtMost(packed)) = self.left;
+        let left = self.left.inflated();
         let inflater = BufReader::with_capacity(1 << 16, MultiGzDecoder::new(self.reader));
-        let left = Left::AtMost(packed.saturating_mul(MOST_INFLATION));
+        Self { reader: Box::new(inflater), left }
+    }
+
+    /// The rest of this stream, inflated from what zlib packed, without the header of gzip.
+    pub(super) fn inflated_zlib(self) -> Self {
+        let left = self.left.inflated();
+        let inflater = BufReader::with_capacity(1 << 16, ZlibDecoder::new(self.reader));
         Self { reader: Box::new(inflater), left }
     }
 
@@ -167,6 +185,17 @@ impl Stream {
         Ok(values)
     }
 
+    /// All bytes that are left, for a format that goes back and forth in its file; of a plain file only.
+    pub(super) fn rest(&mut self) -> Result<Vec<u8>, String> {
+        match self.left {
+            Left::Exactly(left) => self.array(left as usize),
+            Left::AtMost(_) => {
+                Err("is packed as a whole, and its format packs its parts; inflate it first"
+                    .to_owned())
+            }
+        }
+    }
+
     /// The next bytes of text, as they happen to be buffered; none at the end. [`Self::consume`] takes them.
     pub(super) fn buffered(&mut self) -> Result<&[u8], String> {
         self.reader.fill_buf().map_err(|e| unreadable(&e))
@@ -240,62 +269,14 @@ fn truncated(needed: u64, found: u64, what: &str) -> String {
 fn unreadable(error: &io::Error) -> String {
     match error.kind() {
         ErrorKind::UnexpectedEof => {
-            "is truncated: its gzip data end early; fetch the file again".to_owned()
+            "is truncated: its packed data end early; fetch the file again".to_owned()
         }
         ErrorKind::InvalidData | ErrorKind::InvalidInput => {
-            format!("its gzip data are damaged ({error}); fetch the file again")
+            format!("its packed data are damaged ({error}); fetch the file again")
         }
         _ => format!("cannot be read ({error}); check the disk and its permissions"),
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::made::gzip;
-    use super::*;
-
-    #[test]
-    fn a_promise_that_the_file_cannot_back_fails_before_it_is_allocated() {
-        let said = Stream::of(vec![0; 100]).array::<u64>(1 << 45).unwrap_err();
-        assert!(said.contains("truncated"), "{said}");
-        let said = Stream::of(gzip(&[0; 100])).inflated().array::<u64>(1 << 45).unwrap_err();
-        assert!(said.contains("at the most"), "{said}");
-    }
-
-    #[test]
-    fn an_inflated_array_grows_to_what_was_promised_and_no_further() {
-        let bytes: Vec<u8> = (0..3_000_001_u32).map(|i| (i % 251) as u8).collect();
-        let mut stream = Stream::of(gzip(&bytes)).inflated();
-        let read = stream.array::<u8>(bytes.len()).unwrap();
-        assert_eq!(read, bytes);
-        assert_eq!(read.capacity(), bytes.len());
-        assert_eq!(stream.finish().unwrap(), None);
-    }
-
-    #[test]
-    fn inflated_data_that_are_short_long_or_damaged_are_told_apart() {
-        let packed = gzip(&[7; 5000]);
-        let mut short = Stream::of(packed.clone()).inflated();
-        assert!(short.array::<u8>(5001).unwrap_err().contains("5000 were found"));
-        let mut long = Stream::of(packed.clone()).inflated();
-        long.array::<u8>(4999).unwrap();
-        assert!(long.finish().unwrap_err().contains("inflates past its header"));
-        let mut cut = Stream::of(packed[..packed.len() - 12].to_vec()).inflated();
-        assert!(cut.array::<u8>(5000).unwrap_err().contains("truncated"));
-        let mut wrong = packed;
-        let last = wrong.len() - 6;
-        wrong[last] ^= 1;
-        let mut damaged = Stream::of(wrong).inflated();
-        let end = damaged.array::<u8>(5000).and_then(|_| damaged.finish());
-        assert!(end.unwrap_err().contains("damaged"));
-    }
-
-    #[test]
-    fn peeked_bytes_stay_in_the_stream() {
-        let mut stream = Stream::of(b"abcdef".to_vec());
-        assert_eq!(stream.peek(3).unwrap(), b"abc");
-        assert_eq!(stream.peek(99).unwrap(), b"abcdef");
-        assert_eq!(stream.block::<6>("it").unwrap(), *b"abcdef");
-        assert_eq!(stream.finish().unwrap(), None);
-    }
-}
+mod tests;

@@ -96,6 +96,21 @@ impl Histogram {
         bins.at(bin as f64 + 0.5)
     }
 
+    /// The value that `part` (0..=1) of the finite voxels lie below, to within a bin; 0 where there is none.
+    #[must_use]
+    pub fn quantile(&self, part: f64) -> f32 {
+        let finite: u64 = self.counts.iter().sum();
+        let mut left = part * finite as f64;
+        for (bin, &count) in self.counts.iter().enumerate() {
+            if count as f64 >= left && count > 0 {
+                let bins = Bins { low: self.low, high: self.high, number: self.counts.len() };
+                return bins.at(bin as f64 + left / count as f64);
+            }
+            left -= count as f64;
+        }
+        self.high
+    }
+
     fn plus(mut self, other: &Self) -> Self {
         self.counts.iter_mut().zip(&other.counts).for_each(|(a, b)| *a += b);
         self.nan += other.nan;
@@ -132,6 +147,16 @@ mod tests {
         let values = vec![f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
         let made = histogram(&Scalars::F32(Shared::new(values)), 0);
         assert_eq!((made.counts, made.nan, made.infinite), (vec![0], 1, 2));
+    }
+
+    #[test]
+    fn quantiles_part_the_voxels_and_leave_out_those_of_no_value() {
+        let values: Vec<f32> = (0..1000_u16).map(f32::from).chain([f32::NAN; 50]).collect();
+        let made = histogram(&Scalars::F32(Shared::new(values)), 100);
+        for part in [0.0, 0.01, 0.25, 0.5, 0.99, 1.0] {
+            assert!((f64::from(made.quantile(part)) - 999.0 * part).abs() < 1.5, "{part}");
+        }
+        assert_eq!(histogram(&Scalars::F32(Shared::new(vec![f32::NAN])), 4).quantile(0.5), 0.0);
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub mod cost_table;
 pub mod error;
 pub mod histogram;
 mod isovalues;
+pub mod kind;
 pub mod sigma;
 mod ssim;
 pub mod stopwatch;

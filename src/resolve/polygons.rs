@@ -52,6 +52,9 @@ fn faces_of_mesh(entity: Entity, mesh: &Mesh) -> Result<Faces, Fault> {
         ("ellipsoid", shape::ellipsoid(shape))
     } else if let Some(shape) = &mesh.prism {
         ("prism", shape::prism(shape))
+    } else if mesh.file.is_some() {
+        let problem = "a mesh of a file is read where a scene is loaded; put `Faces` on the entity, or load a scene that names the file";
+        return Err(Fault::of(entity, "mesh", "file", problem));
     } else {
         ("faces", outlines(entity, mesh)?)
     };

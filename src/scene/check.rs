@@ -71,13 +71,15 @@ impl Check for Classify<Level> {
             ("regions", self.regions.is_empty()),
             ("transfer", self.transfer.is_empty()),
             ("materials", self.materials.is_empty()),
+            ("preset", self.preset.is_none()),
+            ("colormap", self.colormap.is_none()),
         ];
         let stated: Vec<_> = ways.iter().filter(|(_, empty)| !empty).map(|(key, _)| *key).collect();
         match stated[..] {
             [] => {
                 return wrong(
                     "",
-                    "classifies nothing; state one of `iso`, `regions`, `transfer`, `materials`",
+                    "classifies nothing; state one of `iso`, `regions`, `transfer`, `materials`, `preset`, `colormap`",
                 );
             }
             [_] => {}
@@ -92,6 +94,17 @@ impl Check for Classify<Level> {
             return wrong(
                 "gradient",
                 "has `gradient` without `transfer`, which it is a factor of; add `transfer`",
+            );
+        }
+        let of_colormap = [
+            ("level", self.level.is_some()),
+            ("window", self.window.is_some()),
+            ("peak_opacity", self.peak_opacity.is_some()),
+        ];
+        if let (None, Some((key, _))) = (self.colormap, of_colormap.iter().find(|row| row.1)) {
+            return wrong(
+                *key,
+                format!("has `{key}` without the colors that it places; add `colormap`"),
             );
         }
         rising("regions", &self.regions.iter().map(|t| t.value).collect::<Vec<_>>())?;
@@ -152,11 +165,20 @@ impl Check for Clip {
 
 impl Check for Mesh {
     fn check(&self) -> Result<(), Wrong> {
-        let ways = [!self.faces.is_empty(), self.ellipsoid.is_some(), self.prism.is_some()];
+        let of_file = [("space", self.space.is_some()), ("unit_mm", self.unit_mm.is_some())];
+        if let (None, Some((key, _))) = (&self.file, of_file.iter().find(|row| row.1)) {
+            return wrong(*key, format!("has `{key}`, which describes a `file`; state one"));
+        }
+        let ways = [
+            self.file.is_some(),
+            !self.faces.is_empty(),
+            self.ellipsoid.is_some(),
+            self.prism.is_some(),
+        ];
         if ways.iter().filter(|&&stated| stated).count() != 1 {
             return wrong(
                 "",
-                "needs exactly one of `faces` (with `vertices`), `ellipsoid` or `prism`",
+                "needs exactly one of `file`, `faces` (with `vertices`), `ellipsoid` or `prism`",
             );
         }
         if self.faces.is_empty() && !self.vertices.is_empty() {

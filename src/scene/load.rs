@@ -9,7 +9,7 @@ use super::kept::Kept;
 use super::loading::{Folders, Loading};
 use super::parse::{ParsedScene, parse};
 use super::source::Source;
-use super::{overrides, textures, volume};
+use super::{meshes, overrides, textures, volume};
 use crate::components::Sampling;
 use crate::error::{Blame, Error, SceneError};
 
@@ -118,10 +118,12 @@ pub(super) fn stated<'t>(
         missing: Vec::new(),
         files: Vec::new(),
         bytes: 0,
+        ready: source.ready.clone(),
         most_bytes: *most_bytes,
         kept,
     };
     volume::read(&mut loading)?;
+    meshes::read(&mut loading)?;
     textures::read(&mut loading)?;
     Ok(loading)
 }

@@ -8,6 +8,7 @@ use super::error::Text;
 use super::kept::Kept;
 use super::parse::Entry;
 use crate::error::{Error, SceneError};
+use crate::formats::Loaded;
 use crate::resolve::{Fault, resolve};
 
 /// A scene half-way: its text, what is stated, and what has been read so far.
@@ -23,6 +24,8 @@ pub(super) struct Loading<'t> {
     pub files: Vec<PathBuf>,
     /// Bytes that what was read takes.
     pub bytes: u64,
+    /// A file that was read before the scene was.
+    pub ready: Option<(PathBuf, Loaded)>,
     /// The most bytes that what is read may take; `None`: as many as there are.
     pub most_bytes: Option<u64>,
     /// What an earlier loading left, and this one leaves for the next.

@@ -5,6 +5,7 @@
 
 mod check;
 mod check_animate;
+mod contact;
 mod entity;
 mod error;
 mod grammar;
@@ -12,6 +13,8 @@ mod handed_over;
 mod kept;
 mod load;
 mod loading;
+mod meshes;
+mod named;
 mod nearest;
 mod overrides;
 mod parse;
@@ -23,6 +26,7 @@ mod tests;
 mod textures;
 mod volume;
 
+pub use contact::{Wish, first_contact};
 pub use handed_over::check_world;
 pub use kept::Kept;
 pub use load::{Loads, Scene, load, load_keeping, load_within, overridden};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::nearest::suggestion;
 use crate::error::Error;
 use crate::error::SceneError;
-use crate::formats::is_volume;
+use crate::formats::{Loaded, is_volume};
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
 pub static EMBEDDED: [(&str, &str); 19] = [
@@ -32,7 +32,7 @@ pub static EMBEDDED: [(&str, &str); 19] = [
 ];
 
 /// The text of a scene, and the file it was read from.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Source {
     /// TOML.
     pub text: String,
@@ -40,6 +40,8 @@ pub struct Source {
     pub path: Option<PathBuf>,
     /// How messages and pictures name the scene: the file as given, or the embedded scene's name.
     pub name: String,
+    /// A file that was read already, for its scene to be made: loading takes its voxels.
+    pub(super) ready: Option<(PathBuf, Loaded)>,
 }
 
 /// The longest scene that is read, in bytes: half a million polygons.
@@ -82,7 +84,7 @@ impl Source {
             )
         })?;
         let text = text.trim_start_matches('\u{feff}').to_owned();
-        Ok(Self { text, name: path.display().to_string(), path: Some(path) })
+        Ok(Self { text, name: path.display().to_string(), path: Some(path), ready: None })
     }
 
     /// The embedded scene of that name; the error lists the names there are.
@@ -92,12 +94,12 @@ impl Source {
             let message = format!("there is no such scene; {}", suggestion(name, &known));
             SceneError::elsewhere(format!("scene `{name}`"), message)
         })?;
-        Ok(Self { text: scene.1.to_owned(), path: None, name: name.to_owned() })
+        Ok(Self { text: scene.1.to_owned(), path: None, name: name.to_owned(), ready: None })
     }
 
     /// A scene that stands in no file: `name` is what messages call it.
     pub fn inline(name: impl Into<String>, text: impl Into<String>) -> Self {
-        Self { text: text.into(), path: None, name: name.into() }
+        Self { text: text.into(), path: None, name: name.into(), ready: None }
     }
 
     /// The file of that path if there is one, else the embedded scene of that name.

@@ -1,9 +1,12 @@
 //! The volumes of a scene: their voxels found and placed, their classification resolved to numbers.
 
+use std::path::Path;
+
 use glam::DVec3;
 
 use super::kept::KeptVolume;
 use super::loading::Loading;
+use super::named;
 use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
@@ -112,7 +115,18 @@ fn read_one(
     let survey = survey(&path, stated)?;
     loading.files.extend(survey.files);
     loading.afford(survey.bytes)?;
-    read_volume(&path, stated).map(Some)
+    match &loading.ready {
+        // What the scene states of the file may have been changed since.
+        Some((known, loaded)) if same(known, &path) && *stated == Stated::default() => {
+            Ok(Some(loaded.clone()))
+        }
+        _ => read_volume(&path, stated).map(Some),
+    }
+}
+
+/// Whether two paths lead to one file or folder.
+fn same(a: &Path, b: &Path) -> bool {
+    a == b || a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }
 
 /// The grid with other spacings (negative flips about the middle) and its middle moved to `center`.
@@ -139,7 +153,15 @@ fn placed(
 /// Puts scalars on the entity, with the classification in numbers if one is stated.
 fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(), Error> {
     if let Some(stated) = loading.get::<Classify<Level>>(entry) {
-        let classify = in_numbers(loading, entry, stated, &scalars)?;
+        let classify = match named::classification(&stated, &scalars) {
+            Some((made, said)) => {
+                if let Some(said) = said {
+                    loading.warn(entry, said);
+                }
+                made
+            }
+            None => in_numbers(loading, entry, stated, &scalars)?,
+        };
         let _ = loading.world.remove_one::<Classify<Level>>(loading.entries[entry].entity);
         loading.add(entry, (classify,));
     }
@@ -174,7 +196,7 @@ fn in_numbers(
     let iso = stated.iso.into_iter().enumerate().map(number).collect::<Result<_, Error>>()?;
     let Classify { regions, transfer, gradient, materials, .. } =
         Classify::<Level> { iso: Vec::new(), ..stated };
-    Ok(Classify { iso, regions, transfer, gradient, materials })
+    Ok(Classify { iso, regions, transfer, gradient, materials, ..Classify::default() })
 }
 
 #[cfg(test)]

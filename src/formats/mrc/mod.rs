@@ -49,7 +49,7 @@ pub(super) fn promised(stream: &mut Stream, _: &Path, _: &Stated) -> Result<Prom
         Mode::Number(kind) => kind.bytes(),
         Mode::Half => size_of::<u16>() + size_of::<f32>(),
     };
-    Ok((of_size(header.size, each), None))
+    Ok((of_size(header.size, each), Vec::new()))
 }
 
 /// Half floats, read as their bits, as floats; each is exact.

@@ -47,7 +47,7 @@ pub(super) fn promised(stream: &mut Stream, _: &Path, _: &Stated) -> Result<Prom
     let each = header.kind.map_or(4, NumberType::bytes);
     let scaled = header.kind.is_some() && (header.slope, header.intercept) != (1.0, 0.0);
     let each = if scaled { each + size_of::<f32>() } else { each };
-    Ok((of_size(header.size, each), None))
+    Ok((of_size(header.size, each), Vec::new()))
 }
 
 /// `slope · value + intercept` as 32-bit floats; the values themselves where that changes nothing.

@@ -4,7 +4,8 @@ mod header;
 mod placement;
 #[cfg(test)]
 mod tests;
-mod words;
+pub(super) mod words;
+mod write;
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,7 @@ use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
 use header::{Encoding, Header, Skip};
 use words::Words;
+pub(super) use write::write;
 
 /// Whether a file starts as NRRD.
 pub(super) fn recognizes(head: &[u8]) -> bool {
@@ -45,7 +47,7 @@ pub(super) fn promised(stream: &mut Stream, path: &Path, _: &Stated) -> Result<P
     let header = Header::read(stream)?;
     let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
     let beside = header.data_file.as_deref().map(|name| beside(path, name));
-    Ok((of_size(header.size, each), beside))
+    Ok((of_size(header.size, each), beside.into_iter().collect()))
 }
 
 /// The path of a data file, which its header states relative to its own folder.

@@ -45,7 +45,7 @@ impl Classifier {
     /// Of several ways stated at once the first in the order of [`Classify`] counts; of none, all is clear.
     #[must_use]
     pub fn new(stated: &Classify, material: &Material, unit: f64) -> Self {
-        let Classify { iso, regions, transfer, gradient, materials } = stated;
+        let Classify { iso, regions, transfer, gradient, materials, .. } = stated;
         let color = material.color.0.as_dvec3();
         let (how, range, colored) = if !iso.is_empty() {
             let everywhere = [f64::NEG_INFINITY, f64::INFINITY];

@@ -1,0 +1,77 @@
+//! What a verb is to draw: a scene by its file or name, or a volume that comes without one.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use gelray::formats::is_volume;
+use gelray::formats::meshes::mesh_format;
+use gelray::scene::{EMBEDDED, Scene, Source, Wish, first_contact};
+
+use super::failure::{Failure, tell};
+use super::flags::Flags;
+
+/// The scene of an argument; without one, the first that is part of the program; for a volume, one that is made for it.
+pub fn open(argument: Option<&OsStr>, flags: &Flags) -> Result<Source, Failure> {
+    let argument = argument.unwrap_or(OsStr::new(EMBEDDED[0].0));
+    let path = Path::new(argument);
+    if !is_without_scene(path) {
+        refuse(flags)?;
+        return Ok(Source::open(argument)?);
+    }
+    if mesh_format(path).is_some() && (flags.iso.is_some() || flags.preset.is_some()) {
+        return Err(Failure::Misused(
+            "--iso and --preset are for volumes, and a mesh has its surface already; leave them away".to_owned(),
+        ));
+    }
+    let wish = Wish {
+        iso: flags.iso,
+        preset: flags.preset,
+        size: flags.size,
+        most_bytes: flags.max_memory,
+    };
+    let (source, said) = first_contact(path, &wish)?;
+    if !flags.quiet {
+        tell(format_args!("{said}"));
+    }
+    Ok(source)
+}
+
+/// Whether the argument is a volume, a folder of one, or a mesh; a bare word may be an embedded scene's name first.
+fn is_without_scene(path: &Path) -> bool {
+    let embedded = EMBEDDED.iter().any(|(name, _)| path.as_os_str() == *name);
+    let mesh = mesh_format(path).is_some() && path.is_file();
+    is_volume(path) || mesh || (path.is_dir() && !embedded)
+}
+
+/// Refuses flags that make a scene where there is one.
+fn refuse(flags: &Flags) -> Result<(), Failure> {
+    let given = [
+        ("--iso", flags.iso.is_some()),
+        ("--preset", flags.preset.is_some()),
+        ("--save-scene", flags.save_scene.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((flag, _)) => Err(Failure::Misused(format!(
+            "{flag} is for a volume that is named in place of a scene; change a scene with --set ENTITY.classify.KEY=VALUE"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// The scene that was made, with the paths in it as they lead there from the folder of the file that is to hold it.
+pub fn saved(path: &Path, scene: &Scene) -> String {
+    let text = scene.resolved.clone();
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    match (folder, scene.files.first()) {
+        (Some(_), Some(file)) => absolute(&text, file).unwrap_or(text),
+        _ => text,
+    }
+}
+
+/// The scene with the volume's path from the root; `None` where it is not written as it was made.
+fn absolute(text: &str, file: &Path) -> Option<String> {
+    let quoted = |path: &Path| toml::Value::String(path.display().to_string()).to_string();
+    let full = file.canonicalize().ok()?;
+    let given = file.strip_prefix("./").unwrap_or(file);
+    Some(text.replace(&format!("file = {}", quoted(given)), &format!("file = {}", quoted(&full))))
+}

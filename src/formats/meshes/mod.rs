@@ -1,0 +1,106 @@
+//! Files of meshes: triangles as STL, PLY and OBJ have them; the table here is where a new format is added.
+
+mod obj;
+mod ply;
+mod stl;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::stream::{Stream, room};
+use crate::error::Error;
+
+/// Triangles of a file, in its own coordinates.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Triangles {
+    /// Points, in the file's order.
+    pub vertices: Vec<DVec3>,
+    /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
+    pub faces: Vec<[u32; 3]>,
+    /// Sentences about what was left out or taken apart.
+    pub warnings: Vec<String>,
+}
+
+/// A format of meshes: a row of [`MESH_FORMATS`].
+pub struct MeshFormat {
+    /// What people call it.
+    pub name: &'static str,
+    /// How its file names end, in lower case and without the dot.
+    pub extension: &'static str,
+    /// Reads the bytes of a file; the error is a sentence without a subject.
+    read: fn(&[u8]) -> Result<Triangles, String>,
+}
+
+/// The formats of meshes; one more is a file and a row.
+pub static MESH_FORMATS: &[MeshFormat] = &[
+    MeshFormat { name: "STL", extension: "stl", read: stl::read },
+    MeshFormat { name: "PLY", extension: "ply", read: ply::read },
+    MeshFormat { name: "OBJ", extension: "obj", read: obj::read },
+];
+
+/// The format of a file by how its name ends.
+#[must_use]
+pub fn mesh_format(path: &Path) -> Option<&'static MeshFormat> {
+    let end = path.extension()?.to_string_lossy().to_ascii_lowercase();
+    MESH_FORMATS.iter().find(|format| format.extension == end)
+}
+
+/// Reads a mesh of a format in [`MESH_FORMATS`], which its name tells.
+///
+/// Every index is one of a vertex, and every vertex is finite. Fails where the file is missing, of no known format, damaged
+/// or without a face; memory is taken in proportion to what the file holds.
+pub fn read_mesh(path: &Path) -> Result<Triangles, Error> {
+    let known = || {
+        let row = |format: &MeshFormat| format!("{} (.{})", format.name, format.extension);
+        MESH_FORMATS.iter().map(row).collect::<Vec<_>>().join(", ")
+    };
+    let read = || {
+        let format = mesh_format(path).ok_or_else(|| {
+            format!("its name is of no known format of meshes; expected one of {}", known())
+        })?;
+        let bytes = Stream::open(path)?.rest()?;
+        checked((format.read)(&bytes)?)
+    };
+    read().map_err(|problem| Error::file(path, problem))
+}
+
+/// Passes on triangles whose indices are those of vertices that are finite.
+fn checked(triangles: Triangles) -> Result<Triangles, String> {
+    let Triangles { vertices, faces, .. } = &triangles;
+    if faces.is_empty() {
+        return Err("holds no face; name a mesh and not a cloud of points".to_owned());
+    }
+    if let Some(at) = vertices.iter().position(|vertex| !vertex.is_finite()) {
+        return Err(format!("its vertex {at} (from 0) is not finite; fetch the file again"));
+    }
+    let count = vertices.len();
+    let beyond = |face: &[u32; 3]| face.iter().any(|&index| index as usize >= count);
+    match faces.iter().position(beyond) {
+        Some(at) => Err(format!(
+            "its triangle {at} (from 0) names a vertex beyond its {count}; fetch the file again"
+        )),
+        None => Ok(triangles),
+    }
+}
+
+/// Adds a polygon as a fan of triangles around its first vertex.
+fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
+    let Some((&first, rest)) = polygon.split_first() else { return };
+    faces.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
+}
+
+/// The sentence about polygons of more than three corners, if there were any.
+fn fans(polygons: usize) -> Option<String> {
+    (polygons > 0).then(|| {
+        format!("{polygons} of its polygons have more than 3 corners and are split into triangles from their first")
+    })
+}
+
+/// Room for so many values more, which the file has bytes for.
+fn reserve<T>(values: &mut Vec<T>, count: usize) -> Result<(), String> {
+    room(values, count)
+}

@@ -1,0 +1,47 @@
+//! Wavefront OBJ: vertices and polygons as lines of text; materials, normals and texture coordinates are not read.
+
+use glam::DVec3;
+
+use super::{Triangles, add_fan, fans};
+
+/// Reads the lines `v x y z` and `f a b c …`; the rest is left out.
+pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
+    let mut triangles = Triangles::default();
+    let mut polygons = 0;
+    let mut polygon = Vec::new();
+    for (at, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
+        let line = String::from_utf8_lossy(line);
+        let mut words = line.split_whitespace();
+        let wrong = |what: &str| format!("line {} is {what}; fetch the file again", at + 1);
+        match words.next() {
+            Some("v") => {
+                let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
+                let three = number().zip(number()).zip(number());
+                let ((x, y), z) = three.ok_or_else(|| wrong("no vertex of three numbers"))?;
+                triangles.vertices.push(DVec3::new(x, y, z));
+            }
+            Some("f") => {
+                polygon.clear();
+                for word in words {
+                    let index = index(word, triangles.vertices.len());
+                    polygon.push(index.ok_or_else(|| wrong("no face of vertices before it"))?);
+                }
+                if polygon.len() < 3 {
+                    return Err(wrong("a face of fewer than 3 vertices"));
+                }
+                polygons += usize::from(polygon.len() > 3);
+                add_fan(&mut triangles.faces, &polygon);
+            }
+            _ => {}
+        }
+    }
+    triangles.warnings.extend(fans(polygons));
+    Ok(triangles)
+}
+
+/// The vertex of `7`, `7/1` or `7//2`, counted from 1, or of `-1`, counted back from the last.
+fn index(word: &str, count: usize) -> Option<u32> {
+    let number: i64 = word.split('/').next()?.parse().ok()?;
+    let index = if number < 0 { count as i64 + number } else { number - 1 };
+    u32::try_from(index).ok().filter(|&index| (index as usize) < count)
+}

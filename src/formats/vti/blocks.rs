@@ -1,0 +1,122 @@
+//! Values of a VTK file as bytes: after their length, or packed by zlib in blocks after a table of lengths.
+
+use super::super::number::Order;
+use super::super::stream::{Stream, room};
+
+/// How bytes are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Encoding {
+    Raw,
+    Base64,
+}
+
+/// Bytes of a plain array of `needed` bytes: its length goes before it.
+pub(super) fn plain(
+    bytes: &[u8],
+    encoding: Encoding,
+    order: Order,
+    wide: bool,
+    needed: usize,
+) -> Result<Vec<u8>, String> {
+    let width = if wide { 8 } else { 4 };
+    let all = match encoding {
+        Encoding::Raw => bytes.get(..width + needed).ok_or_else(truncated)?.to_vec(),
+        Encoding::Base64 => decoded(bytes, width + needed)?,
+    };
+    let [length] = numbers(&all[..width], order, wide)[..] else { return Err(truncated()) };
+    if length < needed as u64 {
+        return Err(format!(
+            "its values are {length} bytes where its extent needs {needed}; save it again"
+        ));
+    }
+    Ok(all[width..].to_vec())
+}
+
+/// Bytes of an array of `needed` bytes that is packed in blocks.
+pub(super) fn inflated(
+    bytes: &[u8],
+    encoding: Encoding,
+    order: Order,
+    wide: bool,
+    needed: usize,
+) -> Result<Vec<u8>, String> {
+    let width = if wide { 8 } else { 4 };
+    let some = |bytes: &[u8], count: usize| match encoding {
+        Encoding::Raw => bytes.get(..count).map(<[u8]>::to_vec).ok_or_else(truncated),
+        Encoding::Base64 => decoded(bytes, count),
+    };
+    let start = numbers(&some(bytes, 3 * width)?, order, wide);
+    let [count, block, last] = start[..] else { return Err(truncated()) };
+    // Each block has a length in the table.
+    let count = usize::try_from(count).ok().filter(|&count| count <= bytes.len() / width);
+    let count = count.ok_or_else(truncated)?;
+    let table = (3 + count) * width;
+    let lengths = numbers(&some(bytes, table)?, order, wide);
+    let packed: u64 = lengths[3..].iter().fold(0, |sum, &length| sum.saturating_add(length));
+    let rest = match encoding {
+        Encoding::Raw => bytes.get(table..),
+        Encoding::Base64 => {
+            let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
+            bytes.get(start + table.div_ceil(3) * 4..)
+        }
+    };
+    let packed = usize::try_from(packed).map_err(|_| truncated())?;
+    let packed = some(rest.ok_or_else(truncated)?, packed)?;
+    let mut values: Vec<u8> = Vec::new();
+    let mut from = 0;
+    for (number, &length) in lengths[3..].iter().enumerate() {
+        let size = if number + 1 == count && last > 0 { last } else { block };
+        let size = usize::try_from(size).unwrap_or(usize::MAX).min(needed - values.len());
+        let own = packed[from..from + length as usize].to_vec();
+        from += length as usize;
+        let more = Stream::of(own).inflated_zlib().array::<u8>(size)?;
+        room(&mut values, more.len())?;
+        values.extend(more);
+    }
+    if values.len() < needed { Err(truncated()) } else { Ok(values) }
+}
+
+fn numbers(bytes: &[u8], order: Order, wide: bool) -> Vec<u64> {
+    let number = |bytes: &[u8]| {
+        let fold = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
+        match order {
+            Order::Big => bytes.iter().fold(0, fold),
+            Order::Little => bytes.iter().rev().fold(0, fold),
+        }
+    };
+    bytes.chunks_exact(if wide { 8 } else { 4 }).map(number).collect()
+}
+
+/// The first `count` bytes of base64, blanks left out; what pads it ends it.
+fn decoded(text: &[u8], count: usize) -> Result<Vec<u8>, String> {
+    if count / 3 > text.len() / 4 + 1 {
+        return Err(truncated());
+    }
+    let mut bytes = Vec::new();
+    room(&mut bytes, count + 3)?;
+    let (mut bits, mut held) = (0_u32, 0);
+    for &letter in text.iter().filter(|letter| !letter.is_ascii_whitespace()) {
+        let six = match letter {
+            b'A'..=b'Z' => letter - b'A',
+            b'a'..=b'z' => letter - b'a' + 26,
+            b'0'..=b'9' => letter - b'0' + 52,
+            b'+' => 62,
+            b'/' => 63,
+            _ => break,
+        };
+        bits = bits << 6 | u32::from(six);
+        held += 6;
+        if held >= 8 {
+            held -= 8;
+            bytes.push((bits >> held) as u8);
+        }
+        if bytes.len() == count {
+            return Ok(bytes);
+        }
+    }
+    if bytes.len() < count { Err(truncated()) } else { Ok(bytes) }
+}
+
+fn truncated() -> String {
+    "is truncated: its values are fewer bytes than it says; fetch the file again".to_owned()
+}

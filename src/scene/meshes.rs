@@ -1,0 +1,72 @@
+//! The meshes of a scene that stand in files: their triangles as faces in the world.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::loading::Loading;
+use crate::components::{Mesh, Space};
+use crate::error::Error;
+use crate::formats::meshes::read_mesh;
+use crate::polygon::face::{Face, Faces};
+
+/// Reads every mesh that names a file.
+pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
+    for entry in loading.nouns(&["mesh"]) {
+        let Some(Mesh { file: Some(file), space, unit_mm, .. }) = loading.get::<Mesh>(entry) else {
+            continue;
+        };
+        let faces = of_file(loading, entry, &file, space, unit_mm)?;
+        loading.add(entry, (Faces(Arc::new(faces)),));
+    }
+    Ok(())
+}
+
+/// The triangles of a file, in the world; those without an area are left out and said.
+fn of_file(
+    loading: &mut Loading,
+    entry: usize,
+    file: &str,
+    space: Option<Space>,
+    unit_mm: Option<f64>,
+) -> Result<Vec<Face>, Error> {
+    let Some(path) = loading.folders.find(file) else {
+        let missing = loading.folders.missing(file);
+        let problem = format!("{missing}; name its folder as a data folder");
+        return Err(loading.nowhere(entry, ("mesh", "file"), file, problem));
+    };
+    let bytes = std::fs::metadata(&path).map_or(0, |found| found.len());
+    loading.files.push(path.clone());
+    // A triangle takes 50 bytes at the least in a file, and a face of the world four times that.
+    loading.afford(bytes.saturating_mul(4))?;
+    let read = read_mesh(&path)?;
+    for warning in read.warnings {
+        loading.warn(entry, warning);
+    }
+    let unit = unit_mm.unwrap_or(1.0);
+    let world = |v: DVec3| {
+        unit * match space.unwrap_or(Space::Lps) {
+            Space::Lps => v,
+            Space::Ras => DVec3::new(-v.x, -v.y, v.z),
+            Space::YUp => DVec3::new(v.x, -v.z, v.y),
+        }
+    };
+    let corner = |at: u32| world(read.vertices[at as usize]);
+    let faces: Vec<_> = read
+        .faces
+        .iter()
+        .filter_map(|face| Face::new(vec![face.map(corner).to_vec()]).ok())
+        .collect();
+    match read.faces.len() - faces.len() {
+        0 => {}
+        all if faces.is_empty() => {
+            let problem = format!("none of its {all} triangles has an area; check its `unit_mm`");
+            return Err(loading.error(entry, "mesh", "file", problem));
+        }
+        some => loading.warn(
+            entry,
+            format!("{some} of its triangles have no area or vertices that are no numbers, and are left out"),
+        ),
+    }
+    Ok(faces)
+}

@@ -1,0 +1,260 @@
+"""Files that other programs write are read to the same voxels at the same places.
+
+Run as `python3 tests/formats/check.py PROGRAM`; PROGRAM is a built gelray. Each check needs a Python package and is left
+out, with a line that says so, where it is missing: numpy (for all), pydicom, SimpleITK, nibabel, tifffile, vtk, trimesh.
+Exit code 1 where anything differs.
+"""
+
+import importlib
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROGRAM = sys.argv[1] if len(sys.argv) > 1 else "target/release/gelray"
+CHECKS = []
+
+
+def check(*packages):
+    """A check that is run where its packages are installed."""
+
+    def add(function):
+        CHECKS.append((function, packages))
+        return function
+
+    return add
+
+
+def run(*words):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def read_nrrd(path):
+    """The voxels (z, y, x) and the affine of a file as `gelray convert` writes it."""
+    head, body = path.read_bytes().split(b"\n\n", 1)
+    fields = dict(line.split(": ", 1) for line in head.decode().splitlines()[1:])
+    kinds = {"float": "f4", "double": "f8"}
+    kind = kinds.get(fields["type"], fields["type"].replace("uint", "u").replace("int", "i"))
+    if kind[0] in "ui":
+        kind = kind[0] + str(int(kind[1:]) // 8)
+    size = [int(word) for word in fields["sizes"].split()]
+    voxels = np.frombuffer(body, "<" + kind).reshape(size[::-1])
+    vectors = (fields["space directions"] + " " + fields["space origin"]).replace("none ", "")
+    columns = [[float(n) for n in vector.strip("()").split(",")] for vector in vectors.split()]
+    affine = np.eye(4)
+    affine[:3, :] = np.array(columns).T
+    return voxels, affine
+
+
+def same(path, voxels, affine, folder, tolerance=1e-4):
+    """Whether gelray reads the same voxels at the same places; the affine is to left, posterior, superior."""
+    out = folder / "out.nrrd"
+    run("convert", path, out)
+    found, placed = read_nrrd(out)
+    assert found.shape == voxels.shape, (found.shape, voxels.shape)
+    assert np.array_equal(found, voxels), "voxels differ"
+    corners = np.array([[x, y, z, 1] for x in (0, 7) for y in (0, 7) for z in (0, 7)]).T
+    apart = np.abs(placed @ corners - affine @ corners).max()
+    assert apart < tolerance, f"places differ by {apart}"
+
+
+def volume(kind="int16"):
+    """Voxels that are all different along each axis."""
+    z, y, x = np.mgrid[0:5, 0:6, 0:7]
+    return (z * 100 + y * 10 + x).astype(kind)
+
+
+def turned():
+    """A rotation about an axis of no special direction, for affines that are not trivial."""
+    a, b = 0.3, -0.2
+    about_z = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
+    about_x = np.array([[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]])
+    return about_z @ about_x
+
+
+SPACING, ORIGIN = (0.7, 0.9, 2.5), (-12.5, 30.25, 7.0)
+
+
+def placed():
+    affine = np.eye(4)
+    affine[:3, :3] = turned() @ np.diag(SPACING)
+    affine[:3, 3] = ORIGIN
+    return affine
+
+
+@check("SimpleITK")
+def metaimage_nrrd_and_nifti_of_simpleitk(folder):
+    import SimpleITK as sitk
+
+    for kind in ["uint8", "int16", "uint16", "int32", "float32", "float64"]:
+        image = sitk.GetImageFromArray(volume(kind))
+        image.SetSpacing(SPACING)
+        image.SetOrigin(ORIGIN)
+        image.SetDirection(turned().ravel().tolist())
+        for name, packed in [("a.mha", 0), ("b.mha", 1), ("c.mhd", 0), ("d.mhd", 1), ("e.nrrd", 1), ("f.nii.gz", 1)]:
+            sitk.WriteImage(image, str(folder / name), bool(packed))
+            same(folder / name, volume(kind), placed(), folder)
+
+
+@check("nibabel")
+def nifti_of_nibabel(folder):
+    import nibabel
+
+    to_ras = np.diag([-1.0, -1.0, 1.0, 1.0])
+    image = nibabel.Nifti1Image(volume().T, to_ras @ placed())
+    for name in ["a.nii", "a.nii.gz"]:
+        nibabel.save(image, folder / name)
+        same(folder / name, volume(), placed(), folder)
+
+
+@check()
+def arrays_of_numpy(folder):
+    for kind in ["uint8", "int16", ">u2", "float32", "float64"]:
+        np.save(folder / "a.npy", volume(kind))
+        same(folder / "a.npy", volume(kind), np.eye(4), folder)
+        np.save(folder / "a.npy", np.asfortranarray(volume(kind).T))
+        same(folder / "a.npy", volume(kind), np.eye(4), folder)
+
+
+@check("tifffile")
+def stacks_of_tifffile(folder):
+    import tifffile
+
+    for kind, packing in [("uint8", None), ("uint16", "zlib"), ("float32", None)]:
+        tifffile.imwrite(
+            folder / "a.tif", volume(kind), imagej=packing is None, compression=packing,
+            resolution=(1 / 0.5, 1 / 0.25), metadata={"spacing": 2.0, "unit": "um", "axes": "ZYX"} if packing is None else None,
+        )
+        spacing = (0.5, 0.25, 2.0) if packing is None else (1, 1, 1)
+        same(folder / "a.tif", volume(kind), np.diag([*spacing, 1.0]), folder)
+
+
+@check("vtk")
+def images_of_vtk(folder):
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk
+
+    for kind in ["uint8", "int16", "float32", "float64"]:
+        image = vtk.vtkImageData()
+        image.SetDimensions(7, 6, 5)
+        image.SetSpacing(SPACING)
+        image.SetOrigin(ORIGIN)
+        image.SetDirectionMatrix(*turned().ravel())
+        image.GetPointData().SetScalars(numpy_to_vtk(volume(kind).ravel(), deep=True))
+        for mode in ["Ascii", "Binary", "Appended"]:
+            for packed in [False, True]:
+                writer = vtk.vtkXMLImageDataWriter()
+                writer.SetFileName(str(folder / "a.vti"))
+                writer.SetInputData(image)
+                getattr(writer, f"SetDataModeTo{mode}")()
+                if not packed:
+                    writer.SetCompressorTypeToNone()
+                writer.SetEncodeAppendedData(packed)
+                writer.Write()
+                same(folder / "a.vti", volume(kind), placed(), folder)
+
+
+def write_series(folder, syntax, tilt=0.0, name="slice"):
+    """Slices of signed values as 12 bits plus 1024, named against their order."""
+    import pydicom
+    from pydicom.dataset import FileDataset, FileMetaDataset
+    from pydicom.uid import ExplicitVRLittleEndian, RLELossless, generate_uid
+
+    rotation, series = turned(), generate_uid()
+    for number, pixels in enumerate(volume()):
+        meta = FileMetaDataset()
+        meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2"
+        meta.MediaStorageSOPInstanceUID = generate_uid()
+        meta.TransferSyntaxUID = ExplicitVRLittleEndian if syntax == RLELossless else syntax
+        slice_ = FileDataset(None, {}, file_meta=meta, preamble=b"\0" * 128)
+        slice_.SOPClassUID, slice_.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
+        slice_.Modality, slice_.SeriesInstanceUID, slice_.InstanceNumber = "CT", series, 50 - number
+        slice_.ImageOrientationPatient = [*map(float, rotation[:, 0]), *map(float, rotation[:, 1])]
+        way = rotation[:, 2] + tilt * rotation[:, 1]
+        slice_.ImagePositionPatient = [*map(float, np.array(ORIGIN) + number * SPACING[2] * way)]
+        slice_.PixelSpacing = [SPACING[1], SPACING[0]]
+        slice_.Rows, slice_.Columns = pixels.shape
+        slice_.SamplesPerPixel, slice_.PhotometricInterpretation = 1, "MONOCHROME2"
+        slice_.BitsAllocated, slice_.BitsStored, slice_.HighBit, slice_.PixelRepresentation = 16, 12, 11, 0
+        slice_.RescaleSlope, slice_.RescaleIntercept = 1, -1024
+        order = ">u2" if syntax == "1.2.840.10008.1.2.2" else "<u2"
+        slice_.PixelData = (pixels + 1024).astype(order).tobytes()
+        slice_["PixelData"].VR = "OW"
+        if syntax == RLELossless:
+            slice_.compress(RLELossless)
+        pydicom.dcmwrite(folder / f"{name}{9 - number}", slice_, enforce_file_format=True)
+
+
+@check("pydicom", "SimpleITK")
+def series_of_pydicom_as_simpleitk_reads_them(folder):
+    import SimpleITK as sitk
+
+    names = ["1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.2", "1.2.840.10008.1.2.5"]
+    for syntax in names:
+        own = folder / syntax
+        own.mkdir()
+        write_series(own, syntax)
+        same(own, volume(), placed(), folder, 1e-3)
+        same(own / "slice7", volume(), placed(), folder, 1e-3)
+        if syntax != "1.2.840.10008.1.2.2":
+            reader = sitk.ImageSeriesReader()
+            reader.SetFileNames(reader.GetGDCMSeriesFileNames(str(own)))
+            image = reader.Execute()
+            assert np.array_equal(sitk.GetArrayFromImage(image), volume())
+            assert np.allclose(image.GetOrigin(), ORIGIN, atol=1e-3)
+
+
+@check("pydicom")
+def a_tilted_gantry_is_sheared_and_not_resampled(folder):
+    write_series(folder, "1.2.840.10008.1.2.1", tilt=0.3)
+    affine = placed()
+    affine[:3, 2] = SPACING[2] * (turned()[:, 2] + 0.3 * turned()[:, 1])
+    same(folder, volume(), affine, folder / "..", 1e-3)
+
+
+@check("trimesh")
+def meshes_of_trimesh_are_drawn_alike(folder):
+    import trimesh
+
+    mesh = trimesh.creation.icosphere(subdivisions=2, radius=10.0)
+    pictures = []
+    for name in ["ball.stl", "ball_text.stl", "ball.ply", "ball_text.ply", "ball.obj"]:
+        options = {"file_type": "stl_ascii"} if name == "ball_text.stl" else {}
+        options |= {"encoding": "ascii"} if name == "ball_text.ply" else {}
+        mesh.export(folder / name, **options)
+        run("render", folder / name, "-o", folder / "ball.npy", "--size", "64x64", "-q", "--set", "mesh.mesh.space=lps")
+        pictures.append(np.load(folder / "ball.npy"))
+    for picture in pictures[1:]:
+        assert np.abs(picture - pictures[0]).max() < 0.05
+
+
+def main():
+    failed = 0
+    for function, packages in CHECKS:
+        name = function.__name__.replace("_", " ")
+        missing = [package for package in packages if importlib.util.find_spec(package) is None]
+        if missing:
+            print(f"skipped: {name}: the Python package {missing[0]} is not installed")
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            inner = Path(folder) / "files"
+            inner.mkdir()
+            try:
+                function(inner)
+                print(f"ok: {name}")
+            except Exception as problem:
+                failed += 1
+                print(f"FAILED: {name}: {problem}")
+    sys.exit(1 if failed else 0)
+
+
+try:
+    import importlib.util
+
+    import numpy as np
+except ModuleNotFoundError:
+    print("skipped: all checks of formats: the Python package numpy is not installed")
+    sys.exit(0)
+main()

@@ -1,0 +1,106 @@
+//! A volume in place of a scene: drawn at once, said aloud, and its scene saved.
+
+use gelray::formats::{Loaded, Stated, Voxels, read_picture, read_volume};
+use gelray::volume::grid::Scalars;
+
+use super::{Place, small_nrrd};
+
+fn place() -> Place {
+    let place = Place::new();
+    place.write("small.nrrd", small_nrrd());
+    place
+}
+
+#[test]
+fn a_volume_without_a_scene_is_drawn_and_what_it_was_taken_for_is_said() {
+    let place = place();
+    let ran = place.done("render small.nrrd -o a.png --size 40x30");
+    assert!(ran.err.contains("labels by its values") && ran.err.contains("--iso"), "{}", ran.err);
+    let picture = read_picture(&place.path("a.png")).unwrap();
+    assert_eq!(picture.size, [40, 30]);
+    // It fills the picture: the middle is lit gel, and a corner the background.
+    let (middle, corner) = (picture.pixels[15 * 40 + 20], picture.pixels[0]);
+    assert!(middle[0] > 4.0 * corner[0], "{middle:?} {corner:?}");
+    assert_eq!(place.done("render small.nrrd -q -o b.png").err, "");
+}
+
+#[test]
+fn the_saved_scene_makes_the_same_bytes_from_its_own_folder_and_from_another() {
+    let place = place();
+    place.done("render small.nrrd -o a.png --size 40x30 --iso 100 --save-scene small.toml");
+    place.done("render small.toml -o b.png");
+    assert_eq!(place.read("a.png"), place.read("b.png"));
+    std::fs::create_dir(place.path("kept")).unwrap();
+    place.done("render small.nrrd -o c.png --size 40x30 --iso 100 --save-scene kept/small.toml");
+    place.done("render kept/small.toml -o d.png");
+    let pixels = |name| read_picture(&place.path(name)).unwrap().pixels.to_vec();
+    assert!(pixels("a.png") == pixels("d.png"));
+}
+
+#[test]
+fn changes_and_plans_are_those_of_the_scene_that_is_made() {
+    let place = place();
+    place.done("render small.nrrd -o a.png --size 40x30");
+    place.done("render small.nrrd -o b.png --size 40x30 --set volume.material.color=#00ff00");
+    assert_ne!(place.read("a.png"), place.read("b.png"));
+    assert!(place.done("plan small.nrrd --preset ct-skin").out.contains("volume"));
+    place.refused("render small.nrrd -o a.png --max-memory 100", 1, &["120", "memory"]);
+}
+
+#[test]
+fn a_mesh_is_drawn_with_y_up_or_as_a_scene_states() {
+    let place = Place::new();
+    // A triangle that stands: wide at its foot, y up.
+    place.write("foot.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    let ran = place.done("render foot.obj -o a.png --size 40x40 --save-scene foot.toml");
+    assert!(ran.err.contains("y up") && ran.err.contains("`space`"), "{}", ran.err);
+    let lit = |name: &str| {
+        let picture = read_picture(&place.path(name)).unwrap();
+        let row = |y: usize| picture.pixels[y * 40..(y + 1) * 40].iter();
+        let count = |y: usize| row(y).filter(|pixel| pixel[0] > 0.05).count();
+        [count(12), count(28)]
+    };
+    let [above, below] = lit("a.png");
+    assert!(above > 0 && below > above, "{above} {below}");
+    // Lying on its back, it is seen from a little above: next to nothing.
+    place.done("render foot.toml -o b.png --set mesh.mesh.space=lps");
+    assert_eq!(lit("b.png")[0], 0);
+    place.done("render foot.toml -o c.png --set mesh.mesh.unit_mm=1000 --set mesh.mesh.space=y-up");
+    assert_eq!(lit("c.png"), [above, below]);
+    place.refused("render foot.obj -o a.png --iso 3", 2, &["surface already"]);
+    place.write(
+        "point.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n3\n",
+    );
+    place.refused("render point.ply -o a.png", 1, &["no face"]);
+}
+
+#[test]
+fn a_volume_is_converted_to_nrrd_bit_for_bit() {
+    let place = place();
+    place.done("convert small.nrrd big.nrrd");
+    let of = |name: &str| read_volume(&place.path(name), &Stated::default()).unwrap();
+    let (small, big) = (of("small.nrrd"), of("big.nrrd"));
+    let bytes = |loaded: Loaded| match loaded.voxels {
+        Voxels::Scalars(Scalars::U8(values)) => values.to_vec(),
+        _ => panic!("not bytes"),
+    };
+    assert_eq!(small.grid, big.grid);
+    assert_eq!(bytes(small), bytes(big));
+    place.refused("convert small.nrrd small.mha", 2, &[".nrrd"]);
+    place.refused("convert small.nrrd small.nrrd", 2, &["choose another"]);
+    place.refused("convert nowhere.nii a.nrrd", 1, &["nowhere.nii"]);
+}
+
+#[test]
+fn flags_of_a_volume_without_a_scene_are_misuse_with_a_scene() {
+    let place = place();
+    for flag in ["--iso 300", "--preset ct-bone", "--save-scene a.toml"] {
+        place.refused(&format!("render cross.toml -o a.png {flag}"), 2, &["--set"]);
+    }
+    place.refused("render small.nrrd -o a.png --preset bone", 2, &["ct-bone", "mr-brain"]);
+    place.refused("render small.nrrd -o a.png --iso x", 2, &["300"]);
+    place.refused("render small.nrrd -o a.png --iso 3 --preset ct-bone", 2, &["--preset"]);
+    place.refused("render small.nrrd -o a.png --save-scene a.png", 2, &["both name"]);
+    place.refused("render small.nrrd -o a.png --save-scene small.nrrd", 2, &["is read"]);
+}
