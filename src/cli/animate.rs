@@ -24,7 +24,7 @@ use super::results::Results;
 use super::stats::Counted;
 use super::target::Target;
 use super::trace::Trace;
-use super::{listing, outputs, plan, render};
+use super::{bound, contact, listing, outputs, render};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -44,7 +44,7 @@ pub fn run(scene: Option<&OsStr>, motion: &Motion, flags: &Flags) -> Result<(), 
     let start = Instant::now();
     flags.refuse_others("animate", TAKES)?;
     let target = Target::of(flags, motion)?;
-    let source = render::open(scene)?;
+    let source = contact::open(scene, flags)?;
     let others = Flags { output: None, ..flags.clone() };
     outputs::check(&others, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
     let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
@@ -93,7 +93,7 @@ struct Work<'a> {
 impl Work<'_> {
     fn render(&mut self, start: Instant) -> Result<(), Failure> {
         let renderer = Renderer::watched(self.interrupt.watch.clone())?;
-        plan::check_memory(renderer.schedule(), &self.film.scene.world, self.flags)?;
+        bound::check_memory(renderer.schedule(), &self.film.scene.world, self.flags)?;
         let (todo, data) = self.prepare()?;
         let loaded = start.elapsed().as_secs_f64();
         self.interrupt.work_begins();

@@ -31,7 +31,9 @@ pub fn open(argument: Option<&OsStr>, flags: &Flags) -> Result<Source, Failure> 
     };
     let (source, said) = first_contact(path, &wish)?;
     if !flags.quiet {
-        tell(format_args!("{said}"));
+        let guessed = mesh_format(path).is_none() && flags.iso.is_none() && flags.preset.is_none();
+        let more = if guessed { "; another look is --preset NAME or --iso VALUE" } else { "" };
+        tell(format_args!("{said}{more}"));
     }
     Ok(source)
 }

@@ -1,7 +1,7 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
-mod loaded;
 mod dicom;
+mod loaded;
 mod metaimage;
 mod mrc;
 mod nifti;
@@ -20,8 +20,8 @@ mod vti;
 mod hostile_files;
 #[cfg(test)]
 mod made;
-pub mod moving;
 pub mod meshes;
+pub mod moving;
 pub mod pictures;
 #[cfg(test)]
 mod real_files;

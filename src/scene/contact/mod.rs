@@ -102,19 +102,18 @@ fn look(loaded: &Loaded, found: &Survey, wish: &Wish) -> Look {
 
 fn guessed(scalars: &Scalars, found: &Survey) -> Look {
     let counted = histogram(scalars, BINS);
-    let remedy = "another look is --preset NAME or --iso VALUE";
     if found.format == "MRC or CCP4" {
         let said = "a map of a molecule by its format, so drawn by the preset density";
-        return named(Preset::Density, scalars, format!("{said}; {remedy}"));
+        return named(Preset::Density, scalars, said.to_owned());
     }
     match kind(scalars, &counted) {
         Kind::Ct => {
             let said = "CT in Hounsfield units by its values, so drawn by the preset ct-bone";
-            named(Preset::CtBone, scalars, format!("{said}; {remedy}"))
+            named(Preset::CtBone, scalars, said.to_owned())
         }
         Kind::ShiftedCt => {
             let said = "CT whose values are Hounsfield units plus 1024 by its values, so drawn by the preset ct-bone";
-            named(Preset::CtBone, scalars, format!("{said}; {remedy}"))
+            named(Preset::CtBone, scalars, said.to_owned())
         }
         Kind::Labels => {
             let value = counted.low + 0.5;
@@ -122,17 +121,15 @@ fn guessed(scalars: &Scalars, found: &Survey) -> Look {
                 "labels by its values (few whole numbers in flat regions), so drawn as the surface of all above {}",
                 counted.low
             );
-            surface(value, format!("{said}; {remedy}"))
+            surface(value, said)
         }
         Kind::Other => match suggested_isovalues(scalars).first() {
-            None => {
-                surface(counted.low, format!("all its voxels are alike or not numbers; {remedy}"))
-            }
+            None => surface(counted.low, "all its voxels are alike or not numbers".to_owned()),
             Some(&value) => {
                 let said = format!(
                     "of no kind that its values tell, so drawn as the surface that its histogram suggests, at {value}"
                 );
-                surface(value, format!("{said}; {remedy}"))
+                surface(value, said)
             }
         },
     }
