@@ -41,8 +41,19 @@ Examples:
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] =
-    &["--output", "--size", "--set", "--exact", "--stats", "--trace", "--rays", "--max-memory"];
+pub const TAKES: &[&str] = &[
+    "--output",
+    "--size",
+    "--set",
+    "--iso",
+    "--preset",
+    "--save-scene",
+    "--exact",
+    "--stats",
+    "--trace",
+    "--rays",
+    "--max-memory",
+];
 
 /// Renders the scene and writes what was asked for.
 pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {

@@ -4,6 +4,8 @@
 //! repeats the next brick's first, so that a sample touches one brick. Texels beyond the last voxel are zero, so that a
 //! sample on the last plane of voxels needs no clamp. A brick without an interesting voxel takes no memory.
 
+mod texel;
+
 use std::sync::Arc;
 
 use glam::{Vec3, Vec4};
@@ -11,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::components::TexelKind;
 use crate::schedule::Product;
+pub use texel::{FAINT, Texel};
 
 /// Cells along one edge of a brick.
 pub const CELLS: usize = 8;
@@ -20,69 +23,6 @@ pub const ROW: usize = CELLS + 1;
 pub const TEXELS: usize = ROW * ROW * ROW;
 /// The table's entry for a brick that is not stored.
 pub const EMPTY: u32 = u32::MAX;
-
-/// Gel that is nowhere more opaque than this is kept in 32 bits, where that is left open.
-pub const FAINT: f32 = 1.0 / 16.0;
-
-/// A number type that four channels of the gel are kept in; colour and opacity in 0..=1.
-pub trait Texel: Copy + Default + Send + Sync + 'static {
-    /// The channels as stored numbers: 1 is `1 / SCALE`.
-    fn load(self) -> Vec4;
-    /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
-    /// without opacity are stepped over.
-    fn store(channels: Vec4) -> Self;
-    /// The channels of two texels, as stored numbers.
-    fn channels(pair: [Self; 2]) -> [f32; 8];
-    /// What a stored number is multiplied by.
-    const SCALE: f32;
-}
-
-impl Texel for [f32; 4] {
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
-    #[inline(always)]
-    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
-    }
-    fn load(self) -> Vec4 {
-        Vec4::from_array(self)
-    }
-    fn store(channels: Vec4) -> Self {
-        channels.to_array()
-    }
-    const SCALE: f32 = 1.0;
-}
-
-impl Texel for [u16; 4] {
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
-    #[inline(always)]
-    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f32::from)
-    }
-    fn load(self) -> Vec4 {
-        Vec4::from_array(self.map(f32::from))
-    }
-    fn store(channels: Vec4) -> Self {
-        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16);
-        if texel[3] == 0 { Self::default() } else { texel }
-    }
-    const SCALE: f32 = 1.0 / 65535.0;
-}
-
-impl Texel for [u8; 4] {
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
-    #[inline(always)]
-    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f32::from)
-    }
-    fn load(self) -> Vec4 {
-        Vec4::from_array(self.map(f32::from))
-    }
-    fn store(channels: Vec4) -> Self {
-        let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
-        if texel[3] == 0 { Self::default() } else { texel }
-    }
-    const SCALE: f32 = 1.0 / 255.0;
-}
 
 /// The gel in one number type. Shared by pointer, equality is identity.
 #[derive(Debug)]

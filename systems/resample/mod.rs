@@ -143,6 +143,13 @@ fn between(array: &SampleArray, i: usize, j: usize, step: usize) -> Vec4 {
 fn boxed_rows(array: &SampleArray, lattice: &Lattice<'_>, y: usize, rows: &mut [[f32; 4]]) {
     let (width, first) = (array.layout.size[0], array.layout.margin / POSITIONS);
     let height = rows.len() / width;
+    if array.layout.coarsest < POSITIONS {
+        // Every region is split, and those beside the picture need not be whole.
+        for (at, pixel) in rows.iter_mut().enumerate() {
+            *pixel = boxed(array, lattice, at % width, y + at / width);
+        }
+        return;
+    }
     // Where no region is split, the weights are (1, 6, 1) / 8 along each axis: along x first, for each row of the lattice.
     let mut lines = Vec::with_capacity((height + 2) * width);
     for row in y + first - 1..=y + first + height {

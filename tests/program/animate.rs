@@ -47,7 +47,7 @@ fn after_the_first_frame_of_a_turn_only_rays_are_cast() {
     let place = Place::new();
     let ran = place.done("animate head -o frames --size 40x40 --frames 0..30x10 --axis view-up -v");
     let lines: Vec<_> = ran.err.lines().filter(|line| line.starts_with("frame ")).collect();
-    assert!(lines.len() == 4 && lines[0].contains("gradient"), "{}", ran.err);
+    assert!(lines.len() == 4 && lines[0].contains("ranges"), "{}", ran.err);
     assert!(lines[1..].iter().all(|line| line.ends_with("s, cast, resample ran")), "{}", ran.err);
 }
 

@@ -3,6 +3,11 @@
 use super::super::number::Order;
 use super::super::stream::Stream;
 
+/// Whether a file starts as DICOM.
+pub(in crate::formats) fn recognizes(head: &[u8]) -> bool {
+    head.get(128..132) == Some(b"DICM")
+}
+
 /// Bytes of a value that is kept; what is wanted of a header is short.
 const LONGEST: u64 = 1 << 14;
 
@@ -56,7 +61,7 @@ impl Elements {
     /// A file, which begins with 128 bytes of anything and a word.
     pub fn of(mut stream: Stream) -> Result<Self, String> {
         let start = stream.block::<132>("its header")?;
-        if !super::recognizes(&start) {
+        if !recognizes(&start) {
             return Err("lacks the word DICM of a DICOM file; check that it is one".to_owned());
         }
         let writing = Writing { order: Order::Little, explicit: true };

@@ -17,13 +17,9 @@ use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
 use crate::shared::Shared;
 use crate::volume::grid::Scalars;
+pub(super) use elements::recognizes;
 use slice::Slice;
 use stack::Stack;
-
-/// Whether a file starts as DICOM.
-pub(super) fn recognizes(head: &[u8]) -> bool {
-    head.get(128..132) == Some(b"DICM")
-}
 
 /// Reads the series that a file is of, from the files of its folder.
 pub(super) fn read(stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, String> {

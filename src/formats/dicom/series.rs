@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::super::stream::Stream;
+use super::elements::recognizes;
 use super::slice::Slice;
 
 /// Slices of one series, and sentences about those that were left out.
@@ -73,7 +74,7 @@ fn slices(folder: &Path) -> Series {
         let mut stream = Stream::open(path).ok()?;
         // What is no DICOM at all is another's file.
         let head = stream.peek(132).ok()?;
-        if !super::recognizes(&head) || is_directory(path) {
+        if !recognizes(&head) || is_directory(path) {
             return None;
         }
         let slice = Slice::read(stream, path).map(|(slice, ..)| slice);

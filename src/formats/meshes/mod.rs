@@ -3,27 +3,16 @@
 mod obj;
 mod ply;
 mod stl;
+mod triangles;
 
 #[cfg(test)]
 mod tests;
 
 use std::path::Path;
 
-use glam::DVec3;
-
-use super::stream::{Stream, room};
+use super::stream::Stream;
 use crate::error::Error;
-
-/// Triangles of a file, in its own coordinates.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Triangles {
-    /// Points, in the file's order.
-    pub vertices: Vec<DVec3>,
-    /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
-    pub faces: Vec<[u32; 3]>,
-    /// Sentences about what was left out or taken apart.
-    pub warnings: Vec<String>,
-}
+pub use triangles::Triangles;
 
 /// A format of meshes: a row of [`MESH_FORMATS`].
 pub struct MeshFormat {
@@ -85,22 +74,4 @@ fn checked(triangles: Triangles) -> Result<Triangles, String> {
         )),
         None => Ok(triangles),
     }
-}
-
-/// Adds a polygon as a fan of triangles around its first vertex.
-fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
-    let Some((&first, rest)) = polygon.split_first() else { return };
-    faces.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
-}
-
-/// The sentence about polygons of more than three corners, if there were any.
-fn fans(polygons: usize) -> Option<String> {
-    (polygons > 0).then(|| {
-        format!("{polygons} of its polygons have more than 3 corners and are split into triangles from their first")
-    })
-}
-
-/// Room for so many values more, which the file has bytes for.
-fn reserve<T>(values: &mut Vec<T>, count: usize) -> Result<(), String> {
-    room(values, count)
 }

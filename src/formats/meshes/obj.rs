@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Triangles, add_fan, fans};
+use super::triangles::{Triangles, add_fan, fans};
 
 /// Reads the lines `v x y z` and `f a b c …`; the rest is left out.
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {

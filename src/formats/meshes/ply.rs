@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Triangles, add_fan, fans};
+use super::triangles::{Triangles, add_fan, fans};
 
 /// Lines that a header may have.
 const LONGEST: usize = 4096;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Triangles, reserve};
+use super::triangles::{Triangles, reserve};
 
 /// Bytes before the triangles of a binary file: a comment and their number.
 const HEADER: usize = 84;

@@ -2,6 +2,8 @@
 
 use proptest::prelude::*;
 
+use glam::DVec3;
+
 use super::*;
 
 const POINTS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];

@@ -1,0 +1,34 @@
+//! Triangles as files of meshes hold them, and polygons taken apart into them.
+
+use glam::DVec3;
+
+use super::super::stream::room;
+
+/// Triangles of a file, in its own coordinates.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Triangles {
+    /// Points, in the file's order.
+    pub vertices: Vec<DVec3>,
+    /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
+    pub faces: Vec<[u32; 3]>,
+    /// Sentences about what was left out or taken apart.
+    pub warnings: Vec<String>,
+}
+
+/// Adds a polygon as a fan of triangles around its first vertex.
+pub fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
+    let Some((&first, rest)) = polygon.split_first() else { return };
+    faces.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
+}
+
+/// The sentence about polygons of more than three corners, if there were any.
+pub fn fans(polygons: usize) -> Option<String> {
+    (polygons > 0).then(|| {
+        format!("{polygons} of its polygons have more than 3 corners and are split into triangles from their first")
+    })
+}
+
+/// Room for so many values more, which the file has bytes for.
+pub fn reserve<T>(values: &mut Vec<T>, count: usize) -> Result<(), String> {
+    room(values, count)
+}
