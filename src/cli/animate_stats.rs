@@ -5,7 +5,7 @@ use gelray::sequence::film::Film;
 use gelray::sequence::pipeline::Times;
 use serde::Serialize;
 
-use super::render::VERSION;
+use super::noted::VERSION;
 use super::stats::Bytes;
 
 /// What a frame took.

@@ -8,8 +8,8 @@ use gelray::sequence::numbered::{Numbered, key};
 
 use super::failure::Failure;
 use super::flags::Flags;
+use super::noted::VERSION;
 use super::noted::telling_notes;
-use super::render::VERSION;
 
 /// The manifest of all frames, whichever of them are rendered here.
 pub fn of(

@@ -4,8 +4,10 @@ use gelray::scene::Scene;
 
 use super::failure::Failure;
 use super::flags::Flags;
-use super::render::VERSION;
 use super::stats::Counted;
+
+/// The version of gelray.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The notes of a picture; `data` is the digest of the files that it is of, where that is noted.
 pub fn notes(

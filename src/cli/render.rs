@@ -19,7 +19,7 @@ use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::memory::{self, Allowed};
-use super::noted::notes;
+use super::noted::{VERSION, notes};
 use super::progress::Progress;
 use super::results::Results;
 use super::sentence::{DATA, sentence};
@@ -36,9 +36,6 @@ Examples:
   gelray render scene.toml -o out.exr --data ~/scans --exact
   gelray render -o head.png --set head.classify.iso.0.value=1200 --set observer.view.azimuth=60
   gelray render -o head.png --rays rays.png --stats head.json --trace spans.json";
-
-/// The version of gelray.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Flags that have a use here.
 pub const TAKES: &[&str] = &[

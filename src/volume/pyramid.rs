@@ -14,11 +14,10 @@ use rayon::prelude::*;
 
 use crate::schedule::Product;
 use crate::volume::gel::{CELLS, Texel, Texels};
+pub use blocks::BLOCK;
 use blocks::FullBlocks;
 use near::Near;
 
-/// Cells along the edge of a block that a distance is known for.
-pub const BLOCK: usize = 4;
 /// What steps over empty gel. Shared by pointer, equality is identity.
 #[derive(Debug, Clone)]
 pub struct Pyramid(Arc<Levels>);

@@ -4,7 +4,7 @@ use super::super::number::Order;
 use super::super::stream::Stream;
 
 /// Whether a file starts as DICOM.
-pub(in crate::formats) fn recognizes(head: &[u8]) -> bool {
+pub fn recognizes(head: &[u8]) -> bool {
     head.get(128..132) == Some(b"DICM")
 }
 

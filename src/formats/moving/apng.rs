@@ -4,7 +4,7 @@ use std::io::Write;
 
 use png::{BitDepth, BlendOp, ColorType, Encoder, SrgbRenderingIntent};
 
-use super::{By, Clip, Frames, MovingFormat};
+use super::format::{By, Clip, Frames, MovingFormat};
 use crate::formats::whole::Failure;
 
 /// Written only: read as a PNG, it is its first frame.

@@ -4,7 +4,8 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use super::{By, Clip, Frames, MovingFormat, y4m};
+use super::format::{By, Clip, Frames, MovingFormat};
+use super::y4m;
 use crate::error::Error;
 use crate::formats::whole::{Failure, write_by_name};
 
@@ -33,15 +34,15 @@ const OUTPUT: &[&str] = &[
     "-colorspace", "bt709", "-color_range", "tv", "-fflags", "+bitexact", "-flags:v", "+bitexact",
 ];
 
-/// An error, with the remedy, where there is no `ffmpeg` on the PATH, or none that makes what `path` is to be.
-pub fn check(path: &Path) -> Result<(), Error> {
+/// An error, with the remedy, where there is no `ffmpeg` on the PATH, or none that has the encoder of these arguments.
+pub fn check(path: &Path, arguments: &[&str]) -> Result<(), Error> {
     const REMEDY: &str = "install it (apt-get install ffmpeg, brew install ffmpeg), or write an animation that needs none: .png, .gif or .y4m";
     let listed =
         Command::new("ffmpeg").args(["-hide_banner", "-encoders"]).stdin(Stdio::null()).output();
     let refuse = |problem: String| Err(Error::file(path, format!("{problem}; {REMEDY}")));
-    match (listed, super::moving_format(path)?.made) {
+    match (listed, arguments) {
         (Err(error), _) => refuse(format!("is made by `ffmpeg`, which cannot be run ({error})")),
-        (Ok(listed), By::Ffmpeg([_, encoder, ..])) => {
+        (Ok(listed), [_, encoder, ..]) => {
             let known = String::from_utf8_lossy(&listed.stdout);
             if known.split_whitespace().any(|word| word == *encoder) {
                 return Ok(());

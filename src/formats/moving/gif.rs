@@ -6,9 +6,9 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, RgbaImage};
 
 use super::dither::dithered;
+use super::format::{By, Clip, Frames, MovingFormat, Rate};
 use super::opaque::over_black;
 use super::palette::{palette, points};
-use super::{By, Clip, Frames, MovingFormat, Rate};
 use crate::formats::whole::Failure;
 
 /// Written only.

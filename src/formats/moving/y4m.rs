@@ -4,8 +4,8 @@
 
 use std::io::Write;
 
+use super::format::{By, Clip, Frames, MovingFormat};
 use super::opaque::over_black;
-use super::{By, Clip, Frames, MovingFormat};
 use crate::formats::whole::Failure;
 
 /// Written only.

@@ -11,14 +11,14 @@ const LONGEST: usize = 400;
 const FIRST_CHUNK: usize = 1 << 16;
 
 /// The words of a stream, one after another.
-pub(in super::super) struct Words<'a> {
+pub struct Words<'a> {
     stream: &'a mut Stream,
     word: Vec<u8>,
 }
 
 impl<'a> Words<'a> {
     /// The words from where the stream stands.
-    pub(in super::super) fn new(stream: &'a mut Stream) -> Self {
+    pub fn new(stream: &'a mut Stream) -> Self {
         Self { stream, word: Vec::new() }
     }
 

@@ -1,8 +1,8 @@
 //! NRRD written: attached, raw, little-endian, in left-posterior-superior, so that what is read again is the same bits.
 
+use super::super::loaded::{Loaded, Voxels};
 use super::super::number::{Order, Stored, to_native};
 use super::super::whole::{Failure, Sink};
-use super::super::{Loaded, Voxels};
 use crate::volume::grid::{Painted, Scalars};
 use crate::with_scalars;
 
@@ -10,7 +10,7 @@ use crate::with_scalars;
 const CHUNK: usize = 1 << 16;
 
 /// Writes the header and the voxels.
-pub(in super::super) fn write(sink: &mut dyn Sink, loaded: &Loaded) -> Result<(), Failure> {
+pub fn write(sink: &mut dyn Sink, loaded: &Loaded) -> Result<(), Failure> {
     let [x, y, z] = loaded.grid.size;
     let placed = loaded.grid.index_to_world;
     let vector = |v: glam::DVec3| format!("({:?},{:?},{:?})", v.x, v.y, v.z);

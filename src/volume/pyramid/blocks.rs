@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::BLOCK;
 use crate::volume::gel::{CELLS, EMPTY};
 
+/// Cells along the edge of a block that a distance is known for.
+pub const BLOCK: usize = 4;
 /// Blocks along the edge of a brick.
 const PER_BRICK: usize = CELLS / BLOCK;
 /// The greatest distance that is told from greater ones, blocks.
