@@ -1,10 +1,11 @@
 //! MetaImage (`.mha`, and `.mhd` with its voxels in a file beside it): what ITK, SimpleITK and elastix write.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::str::FromStr;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::data_file;
 use super::number::{self, Binary, NumberType, Order};
 use super::stream::Stream;
 use super::survey::{Promise, of_size};
@@ -59,15 +60,10 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
     let header = Header::read(&mut stream)?;
     let grid = stated.grid(header.size, header.placed)?;
     let numbers = grid.voxels() * if header.painted { 4 } else { 1 };
-    let (voxels, excess) = match &header.data_file {
-        None => voxels(stream, &header, numbers)?,
-        Some(name) => {
-            let beside = beside(path, name);
-            Stream::open(&beside)
-                .and_then(|stream| voxels(stream, &header, numbers))
-                .map_err(|problem| format!("its data file `{}` {problem}", beside.display()))?
-        }
-    };
+    let (voxels, excess) =
+        data_file::read(stream, (path, header.data_file.as_deref()), |stream| {
+            voxels(stream, &header, numbers)
+        })?;
     Ok(Loaded { grid, voxels, warnings: excess.into_iter().collect() })
 }
 
@@ -75,12 +71,8 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
 pub(super) fn promised(stream: &mut Stream, path: &Path, _: &Stated) -> Result<Promise, String> {
     let header = Header::read(stream)?;
     let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
-    let beside = header.data_file.as_deref().map(|name| beside(path, name));
+    let beside = header.data_file.as_deref().map(|name| data_file::beside(path, name));
     Ok((of_size(header.size, each), beside.into_iter().collect()))
-}
-
-fn beside(path: &Path, name: &str) -> PathBuf {
-    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 fn voxels(

@@ -1,5 +1,6 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
+mod data_file;
 mod dicom;
 mod loaded;
 mod metaimage;

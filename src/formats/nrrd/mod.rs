@@ -7,8 +7,9 @@ mod tests;
 pub(super) mod words;
 mod write;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::data_file;
 use super::number::{self, Binary, Order};
 use super::stream::Stream;
 use super::survey::{Promise, of_size};
@@ -29,15 +30,10 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
     let placed = placement::affine(&header, &mut warnings)?;
     let grid = stated.grid(header.size, placed)?;
     let numbers = grid.voxels() * if header.painted { 4 } else { 1 };
-    let (voxels, excess) = match &header.data_file {
-        None => voxels(stream, &header, numbers)?,
-        Some(name) => {
-            let beside = beside(path, name);
-            Stream::open(&beside)
-                .and_then(|stream| voxels(stream, &header, numbers))
-                .map_err(|problem| format!("its data file `{}` {problem}", beside.display()))?
-        }
-    };
+    let (voxels, excess) =
+        data_file::read(stream, (path, header.data_file.as_deref()), |stream| {
+            voxels(stream, &header, numbers)
+        })?;
     warnings.extend(excess);
     Ok(Loaded { grid, voxels, warnings })
 }
@@ -46,13 +42,8 @@ pub(super) fn read(mut stream: Stream, path: &Path, stated: &Stated) -> Result<L
 pub(super) fn promised(stream: &mut Stream, path: &Path, _: &Stated) -> Result<Promise, String> {
     let header = Header::read(stream)?;
     let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
-    let beside = header.data_file.as_deref().map(|name| beside(path, name));
+    let beside = header.data_file.as_deref().map(|name| data_file::beside(path, name));
     Ok((of_size(header.size, each), beside.into_iter().collect()))
-}
-
-/// The path of a data file, which its header states relative to its own folder.
-fn beside(path: &Path, name: &str) -> PathBuf {
-    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// The voxels of a stream that stands at the start of its data, and a warning where bytes are left over.
