@@ -132,18 +132,26 @@ const VESSEL: u32 = 0xb8_322a;
 fn brain(counted: &Histogram) -> Classify {
     let [background, tissue] = halves(counted);
     let span = span(background, tissue);
-    let point = |part: f32, opacity: f32, color: u32| TransferPoint {
-        value: background + part * span,
+    ramp(
+        background,
+        span,
+        [
+            (0.45, 0.0, 0x8a_6f66),
+            (0.8, 0.06, 0xb0_9084),
+            (1.2, 0.3, 0xd8_c2b4),
+            (1.8, 0.6, 0xf4_ece4),
+        ],
+    )
+}
+
+/// A transfer function of points at `low` and so many spans above it: part, opacity, sRGB color.
+fn ramp(low: f32, span: f32, points: [(f32, f32, u32); 4]) -> Classify {
+    let transfer = points.map(|(part, opacity, color)| TransferPoint {
+        value: low + part * span,
         opacity,
         color: Some(Color::from_number(color)),
-    };
-    let transfer = vec![
-        point(0.45, 0.0, 0x8a_6f66),
-        point(0.8, 0.06, 0xb0_9084),
-        point(1.2, 0.3, 0xd8_c2b4),
-        point(1.8, 0.6, 0xf4_ece4),
-    ];
-    Classify { transfer, ..Classify::default() }
+    });
+    Classify { transfer: transfer.to_vec(), ..Classify::default() }
 }
 
 /// How far two values are apart; where they are as good as one, so far that points between them are told apart.
@@ -172,18 +180,16 @@ fn glow(counted: &Histogram) -> Classify {
     // Of a volume that is dark nearly everywhere the hundredth is dark too.
     let high = if high > low { high } else { counted.high };
     let span = span(low, high);
-    let point = |part: f32, opacity: f32, color: u32| TransferPoint {
-        value: low + part * span,
-        opacity,
-        color: Some(Color::from_number(color)),
-    };
-    let transfer = vec![
-        point(0.2, 0.0, 0x0a_5c3c),
-        point(0.5, 0.05, 0x16_a862),
-        point(1.0, 0.35, 0x64_f29a),
-        point(2.0, 0.8, 0xea_fff0),
-    ];
-    Classify { transfer, ..Classify::default() }
+    ramp(
+        low,
+        span,
+        [
+            (0.2, 0.0, 0x0a_5c3c),
+            (0.5, 0.05, 0x16_a862),
+            (1.0, 0.35, 0x64_f29a),
+            (2.0, 0.8, 0xea_fff0),
+        ],
+    )
 }
 
 /// A contour at two standard deviations above the mean.
