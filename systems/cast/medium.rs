@@ -88,8 +88,9 @@ impl Bundle {
         let unit = (1_u64 << FRACTION_BITS) as f64;
         let spread = spread(tile.some[0]).max(spread(tile.some[1]));
         let fastest = step.iter().map(|step| step.unsigned_abs()).max().unwrap_or(0).max(1);
-        // Rounding moves each end by less than a unit.
-        let radius = (spread + 8) as f64 / unit;
+        // Rounding moves each end by less than a unit, and by as much again with every step from the middle.
+        let steps = tile.some.map(|k| k.abs_diff(tile.middle)).into_iter().max().unwrap_or(0);
+        let radius = (spread.saturating_add(steps) + 8) as f64 / unit;
         let reaching = pyramid.and_then(|_| PyramidSlices::reaching(radius));
         Self { at, step, radius, per_cell: unit / fastest as f64, reaching }
     }
