@@ -51,7 +51,7 @@ fn main() {
         let mut setting = Setting::open(&source).expect("the scene is loaded");
         setting.run();
         let made = setting.world.query_mut::<&Samples>().into_iter().next();
-        made.inspect(|Samples(samples)| println!("# {:?}", samples.counts));
+        made.inspect(|Samples(samples)| eprintln!("{:?}", samples.counts));
         for turn in 0..repeat {
             setting.turn(20.0 + 1e-3 * turn as f64);
             note(&mut least, "turn", &mut setting);
