@@ -79,7 +79,7 @@
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
 //! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `lit_layer`; [`painting`] for RGBA volumes |
-//! | `pyramid` | which cells are interesting, level by level (§6) | [`pyramid`] |
+//! | `pyramid` | which cells are interesting, and how far away the nearest is (§6) | [`pyramid`] |
 //!
 //! # The walk of a ray
 //!
@@ -91,8 +91,7 @@
 //! packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the widest
 //! instructions that the machine has. `several` joins gels that overlap, `texture` filters what is mapped onto a polygon over
 //! the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the
-//! sample array to
-//! the picture, and [`formats::pictures`] writes it.
+//! sample array to the picture, and [`formats::pictures`] writes it.
 //!
 //! # The walk of a sequence
 //!

@@ -13,7 +13,7 @@ pub struct Counts {
     pub rays: u64,
     /// Samples of the volume that were taken.
     pub samples: u64,
-    /// Times that a ray stepped over an empty cell of the pyramid, of whatever level.
+    /// Times that a ray found its cell empty, and leaps that a packet took over room in which none meets anything.
     pub cells_skipped: u64,
     /// Samples that packets of sixteen rays looked at together.
     pub packet_steps: u64,
