@@ -4,7 +4,7 @@
 //!
 //! | entity | components |
 //! |---|---|
-//! | a volume | [`volume`] or [`painted_volume`] of an array; [`Classify`], [`Material`], [`Clip`], [`OpacityUnit`] |
+//! | a volume | [`volume`] or [`painted_volume`] of an array; [`Classify`], [`Material`], [`Clip`], [`Projection`], [`OpacityUnit`] |
 //! | a polygon, a mesh | [`polygon`], [`triangles`], or a [`Polygon`] or [`Mesh`]; [`Surface`], [`Voxelize`], [`Textured`] |
 //! | a light | [`Light`]; [`CastsShadow`], [`Projects`], [`Shaft`] |
 //! | a texture | a [`Name`] and a [`Picture`] |
@@ -18,8 +18,8 @@ pub use hecs::{self, Entity, World};
 
 pub use crate::components::{
     CastsShadow, Classify, Clip, Color, Contour, DepthCue, Light, Material, Matte, Mesh, Name,
-    OpacityUnit, Order, PixelFilter, Polygon, Projects, Sampling, Shaft, Skip, Surface, TexelKind,
-    TextureFilter, Textured, Tissue, Toward, TransferPoint, View, Voxelize, Wrap,
+    OpacityUnit, Order, PixelFilter, Polygon, Projection, Projects, Sampling, Shaft, Skip, Surface,
+    TexelKind, TextureFilter, Textured, Tissue, Toward, TransferPoint, View, Voxelize, Wrap,
 };
 pub use crate::error::Error;
 pub use crate::formats::pictures::write_picture;

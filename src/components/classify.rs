@@ -39,7 +39,7 @@ pub struct Classify<L = f32> {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub window: Option<f32>,
-    /// With `colormap`: the opacity at the window's end, per opacity unit; default 0.25.
+    /// With `colormap`: the opacity at the window's end, per opacity unit; default 0.25. With `projection`: of all values; default 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub peak_opacity: Option<f32>,

@@ -5,8 +5,10 @@ use hecs::{Entity, World};
 use super::carriers::{carriers, get};
 use super::fault::{Fault, Notice};
 use super::fill::{Became, fill, fill_from};
-use crate::components::{Classify, Contour, Material, OpacityUnit};
-use crate::measure::histogram::suggested_isovalues;
+use crate::components::{
+    Classify, Color, Contour, Material, OpacityUnit, Projection, TransferPoint,
+};
+use crate::measure::histogram::{histogram, suggested_isovalues};
 use crate::volume::grid::{Grid, Painted, Scalars};
 
 /// Gives every grid its opacity unit, and scalars a classification and a material.
@@ -48,6 +50,9 @@ fn len(world: &World, entity: Entity) -> usize {
 }
 
 fn classified(world: &mut World, entity: Entity, notices: &mut Vec<Notice>) -> Result<(), Fault> {
+    if world.get::<&Projection>(entity).is_ok() {
+        return projected(world, entity);
+    }
     let suggested = |scalars: &Scalars| suggested(entity, scalars);
     if fill_from::<Scalars, Classify>(world, entity, suggested)? == Became::Made {
         let value = get::<Classify>(world, entity).map_or(0.0, |made| made.iso[0].value);
@@ -57,6 +62,30 @@ fn classified(world: &mut World, entity: Entity, notices: &mut Vec<Notice>) -> R
         notices.push(Notice { entity, problem });
     }
     fill(world, entity, (), |()| Ok(Material::default())).map(|_| ())
+}
+
+/// A value is looked up in a transfer function; what asks for gradients has no answer for it.
+fn projected(world: &mut World, entity: Entity) -> Result<(), Fault> {
+    fill_from::<Scalars, Classify>(world, entity, |scalars| Ok(gray(scalars)))?;
+    let classify = get::<Classify>(world, entity).unwrap_or_default();
+    if classify.transfer.is_empty() || !classify.gradient.is_empty() {
+        let problem = "shows one value a ray, which `classify` colors by `transfer` (without `gradient`) or `colormap`; state one of them or take `projection` away";
+        return Err(Fault::of(entity, "projection", "", problem));
+    }
+    fill(world, entity, (), |()| Ok(Material::default())).map(|_| ())
+}
+
+/// From black to white over all values but the outermost thousandths, opaque.
+fn gray(scalars: &Scalars) -> Classify {
+    let counted = histogram(scalars, 4096);
+    let (low, high) = (counted.quantile(0.001), counted.quantile(0.999));
+    let high = if high > low { high } else { low + low.abs().max(1.0) };
+    let point = |step: u16| {
+        let part = f32::from(step) / 16.0;
+        let color = Some(Color::from_srgb([part; 3]));
+        TransferPoint { value: low + part * (high - low), opacity: 1.0, color }
+    };
+    Classify { transfer: (0..=16).map(point).collect(), ..Classify::default() }
 }
 
 /// A contour at the isovalue that the histogram suggests.

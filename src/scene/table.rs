@@ -17,7 +17,7 @@ use super::error::Fault;
 use super::grammar;
 use crate::components::{
     Animate, CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon,
-    Projects, Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
+    Projection, Projects, Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -37,11 +37,12 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 18] = [
+pub(super) static COMPONENTS: [Row; 19] = [
     row::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
     row::<Clip>("clip", &["volume"]),
+    row::<Projection>("projection", &["volume"]),
     row::<Polygon>("polygon", &[]),
     row::<Mesh>("mesh", &[]),
     row::<Surface>("surface", &["polygon", "mesh"]),

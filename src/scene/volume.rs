@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::kept::KeptVolume;
 use super::loading::Loading;
 use super::named;
-use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Volume};
+use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Projection, Volume};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
 use crate::phantom;
@@ -152,8 +152,9 @@ fn placed(
 
 /// Puts scalars on the entity, with the classification in numbers if one is stated.
 fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(), Error> {
+    let projected = loading.get::<Projection>(entry).is_some();
     if let Some(stated) = loading.get::<Classify<Level>>(entry) {
-        let classify = match named::classification(&stated, &scalars) {
+        let classify = match named::classification(&stated, &scalars, projected) {
             Some((made, said)) => {
                 if let Some(said) = said {
                     loading.warn(entry, said);

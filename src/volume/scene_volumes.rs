@@ -3,7 +3,7 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{Classify, OpacityUnit, Order};
+use crate::components::{Classify, OpacityUnit, Order, Projection};
 use crate::volume::grid::{Grid, Painted, Scalars};
 
 /// A volume of a scene.
@@ -24,6 +24,8 @@ pub struct SceneVolume {
 pub enum Content {
     /// Scalars, with a classification that says what is seen of them.
     Classified,
+    /// Scalars of which a ray shows one: no gel is made of them.
+    Projected,
     /// RGBA: nothing is to be classified and shaded.
     Painted,
     /// Nothing that is seen by itself: a place for polygons to be scan-converted into.
@@ -48,15 +50,17 @@ impl SceneVolume {
 /// The volumes of a scene, in its order.
 #[must_use]
 pub fn volumes(world: &World) -> Vec<SceneVolume> {
-    type Voxels<'a> = (Option<&'a Scalars>, Option<&'a Classify>, Option<&'a Painted>);
+    type Voxels<'a> =
+        (Option<&'a Scalars>, Option<&'a Classify>, Option<&'a Painted>, Option<&'a Projection>);
     type Volume<'a> = (Entity, &'a Grid, Option<&'a OpacityUnit>, Option<&'a Order>, Voxels<'a>);
     let mut query = world.query::<Volume<'_>>();
     let mut found: Vec<_> = query.iter().collect();
     found.sort_by_key(|(entity, _, _, order, _)| (order.copied(), *entity));
     let volume = |(entity, grid, unit, _, voxels): <Volume<'_> as hecs::Query>::Item<'_>| {
         let content = match voxels {
-            (Some(_), Some(_), _) => Content::Classified,
-            (_, _, Some(_)) => Content::Painted,
+            (Some(_), Some(_), _, Some(_)) => Content::Projected,
+            (Some(_), Some(_), _, None) => Content::Classified,
+            (_, _, Some(_), _) => Content::Painted,
             _ => Content::Clear,
         };
         let unit = unit.map_or_else(|| grid.spacing().min_element(), |unit| unit.0);
@@ -75,6 +79,14 @@ pub fn with_content(world: &World, content: Content) -> Vec<SceneVolume> {
 #[must_use]
 pub fn visible(world: &World) -> Vec<SceneVolume> {
     volumes(world).into_iter().filter(|volume| volume.content != Content::Clear).collect()
+}
+
+/// Those that are made gel of, in the order of the scene.
+#[must_use]
+pub fn gels(world: &World) -> Vec<SceneVolume> {
+    let mut gels = visible(world);
+    gels.retain(|volume| volume.content != Content::Projected);
+    gels
 }
 
 /// Which of some volumes something around `middle` (a world point) is scan-converted into: the first that holds it, else

@@ -1,16 +1,22 @@
 //! Casting the rays that refinement asks for, in packets of neighbours.
 
+use glam::DVec3;
+
 use super::lanes::{LANES, Packet, each};
 use super::march::{Gathering, Hit, Slabs, geometric, march};
 use super::media::Media;
 use super::polygons::Polygons;
+use super::projection::Projections;
 use super::targets::{Caster, RayColors};
 use crate::view::samples::Counts;
+use crate::view::walk::Tile;
 
 /// Casts rays, a packet at a time.
 pub struct BeamCaster<'a, M> {
     /// What rays may meet of polygons.
     pub polygons: Polygons,
+    /// And what they show of volumes that are projected.
+    pub projections: Projections<'a>,
     /// What all rays have in common.
     pub slabs: Slabs,
     /// What they may meet of volumes.
@@ -22,13 +28,15 @@ pub struct BeamCaster<'a, M> {
 /// What a thread needs for a packet, kept from one to the next.
 pub struct Scratch<E> {
     entered: E,
+    /// Where the packet is in the volumes that are projected.
+    tiles: Vec<Tile>,
     /// What the rays meet, one after the other.
     hits: Vec<Hit>,
 }
 
 impl<E: Default> Default for Scratch<E> {
     fn default() -> Self {
-        Self { entered: E::default(), hits: Vec::new() }
+        Self { entered: E::default(), tiles: Vec::new(), hits: Vec::new() }
     }
 }
 
@@ -42,21 +50,27 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
         scratch: &mut Self::Scratch,
         counts: &mut Counts,
     ) {
-        let Scratch { entered, hits } = scratch;
+        let Scratch { entered, tiles, hits } = scratch;
         let mut range = self.media.enter(packet, entered);
         if range[0] < range[1] {
             range[0] = self.media.seek(entered, range[0], counts);
         }
-        if range[0] >= range[1] && self.polygons.is_empty() {
+        let no_hits = self.polygons.is_empty() && self.projections.is_empty();
+        if range[0] >= range[1] && no_hits {
             colors.fill(RayColors::default());
             return;
         }
         let mut gathered = [Gathering::new([0; 2]); LANES];
         hits.clear();
-        if !self.polygons.is_empty() {
+        if !no_hits {
+            self.projections.enter(packet, tiles);
             for lane in each(packet.wanted) {
                 let first = hits.len();
                 self.polygons.meet(packet.position(lane), hits);
+                if !self.projections.is_empty() {
+                    let is_opaque = |hit: &Hit| self.polygons.is_opaque(hit);
+                    self.projections.meet((packet, tiles, lane), (hits, first), is_opaque, counts);
+                }
                 gathered[lane] = Gathering::new([first as u32, hits.len() as u32]);
             }
         }
@@ -65,7 +79,11 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
             (self.media, entered, range),
             &self.slabs,
             hits,
-            |hit, lane| self.polygons.shade(hit, packet.position(lane), packet.step),
+            |hit, lane| {
+                let projected = self.projections.shade(hit);
+                projected
+                    .unwrap_or_else(|| self.polygons.shade(hit, packet.position(lane), packet.step))
+            },
             (packet.wanted, &mut gathered),
             counts,
         );
@@ -77,7 +95,10 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
             if !hits.is_empty() {
                 color.attenuated = ray.attenuated();
                 if self.three_colors {
-                    let plain = |hit: &Hit| self.polygons.plain(hit);
+                    let plain = |hit: &Hit| match self.projections.shade(hit) {
+                        Some(_) => (DVec3::ZERO, 0.0),
+                        None => self.polygons.plain(hit),
+                    };
                     color.geometric = geometric(hits, plain, self.slabs.stop);
                 }
             }

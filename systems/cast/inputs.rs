@@ -2,8 +2,12 @@
 
 use hecs::{Entity, World};
 
+use super::projection::StatedProjection;
 use super::shaft::StatedShaft;
-use crate::components::{DepthCue, Light, Order, Sampling, Shaft, Surface, View, Voxelize};
+use crate::components::{
+    Classify, Clip, DepthCue, Light, Material, Order, Projection, Sampling, Shaft, Surface, View,
+    Voxelize,
+};
 use crate::light::shading::Lamps;
 use crate::light::strength::LightStrength;
 use crate::light::strength::ProjectedBy;
@@ -12,9 +16,10 @@ use crate::polygon::texture::TexturedBy;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::volume::gel::Gel;
-use crate::volume::grid::Grid;
+use crate::volume::grid::{Grid, Scalars};
 use crate::volume::pyramid::Pyramid;
-use crate::volume::scene_volumes::{SceneVolume, around, volumes};
+use crate::volume::ranges::Ranges;
+use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes, with_content};
 
 /// What the rays of a view meet.
 #[derive(PartialEq)]
@@ -30,6 +35,8 @@ pub struct Inputs {
     /// β of each light of `lamps` that casts a shadow.
     pub strengths: Vec<Option<LightStrength>>,
     pub shafts: Vec<StatedShaft>,
+    /// The volumes that are projected, in the order of the scene.
+    pub projections: Vec<StatedProjection>,
 }
 
 /// Faces that stay polygons, and how they look.
@@ -71,6 +78,7 @@ impl Inputs {
             polygons,
             lamps,
             shafts: shafts(world),
+            projections: projections(world),
         }
     }
 }
@@ -122,4 +130,25 @@ fn gels(world: &World) -> Vec<PlacedGel> {
         Some(PlacedGel { grid, gel, pyramid, unit })
     };
     volumes(world).into_iter().filter_map(gel).collect()
+}
+
+/// The volumes of which a ray shows one value, in the order of the scene.
+fn projections(world: &World) -> Vec<StatedProjection> {
+    let projection = |SceneVolume { entity, grid, .. }| {
+        let stated = StatedProjection {
+            shows: get::<Projection>(world, entity)?,
+            grid,
+            scalars: get::<Scalars>(world, entity)?,
+            ranges: get::<Ranges>(world, entity)?,
+            classify: get::<Classify>(world, entity)?,
+            material: get::<Material>(world, entity).unwrap_or_default(),
+            clip: get::<Clip>(world, entity),
+        };
+        Some(stated)
+    };
+    with_content(world, Content::Projected).into_iter().filter_map(projection).collect()
+}
+
+fn get<T: hecs::Component + Clone>(world: &World, entity: Entity) -> Option<T> {
+    world.get::<&T>(entity).ok().map(|component| (*component).clone())
 }

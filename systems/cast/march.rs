@@ -31,6 +31,8 @@ pub struct Hit {
     pub depth: f64,
     /// Its number among the faces seen, in the order of the scene.
     pub face: u32,
+    /// What a projection shows; 0 of a face.
+    pub value: f32,
 }
 
 /// What all rays of a view have in common.

@@ -2,8 +2,8 @@
 //!
 //! `inputs` gathers what a view's rays may meet, and this file makes of it what they need. `adaptive` says where rays are
 //! cast, `caster` takes them in packets of sixteen, `march` takes a packet through slabs and slivers. `media` is the gel as
-//! a packet meets it: nothing, one `medium`, or `several` that overlap; `beams` says where it can meet any. `polygons` says
-//! which faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
+//! a packet meets it: nothing, one `medium`, or `several` that overlap; `beams` says where it can meet any. `projection` is
+//! volumes of which a ray shows one value, `sought` along it. `polygons` says which faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
 
 mod adaptive;
 mod appearance;
@@ -20,9 +20,11 @@ mod media;
 mod medium;
 mod polygons;
 mod projected;
+mod projection;
 mod receiving;
 mod several;
 mod shaft;
+mod sought;
 mod targets;
 mod texture;
 
@@ -31,7 +33,7 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use hecs::{Entity, World};
 
-use crate::components::{DepthCue, Sampling, View};
+use crate::components::{DepthCue, Sampling, Skip, View};
 use crate::error::Error;
 use crate::light::strength::LightStrength;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
@@ -41,6 +43,7 @@ use crate::view::samples::{Layout, SampleArray, Samples};
 use crate::view::walk::Walk;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
 use crate::volume::pyramid::Pyramid;
+use crate::volume::ranges::Ranges;
 use adaptive::Refinement;
 use appearance::Appearance;
 use beams::Beams;
@@ -52,6 +55,7 @@ use media::{Media, Nothing};
 use medium::Medium;
 use polygons::Polygons;
 use projected::ProjectedFace;
+use projection::Projections;
 use several::{AnyMedium, Several};
 use shaft::Dust;
 use texture::FaceTexture;
@@ -62,8 +66,12 @@ pub struct Cast;
 impl System for Cast {
     type Product = Samples;
     const NAME: &'static str = "cast";
-    const READS: &'static [ProductKey] =
-        &[ProductKey::of::<Gel>(), ProductKey::of::<Pyramid>(), ProductKey::of::<LightStrength>()];
+    const READS: &'static [ProductKey] = &[
+        ProductKey::of::<Gel>(),
+        ProductKey::of::<Pyramid>(),
+        ProductKey::of::<LightStrength>(),
+        ProductKey::of::<Ranges>(),
+    ];
 
     fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
         let watch = out.watch();
@@ -94,7 +102,9 @@ fn layout(view: &View, sampling: &Sampling) -> Layout {
 
 /// Δ: as stated, else the smallest spacing of any volume; without a volume it makes no difference.
 fn distance(inputs: &Inputs) -> f64 {
-    let spacings = inputs.volumes.iter().map(|volume| volume.grid.spacing().min_element());
+    let grids = inputs.volumes.iter().map(|volume| &volume.grid);
+    let grids = grids.chain(inputs.projections.iter().map(|volume| &volume.grid));
+    let spacings = grids.map(|grid| grid.spacing().min_element());
     let smallest = spacings.fold(f64::INFINITY, f64::min);
     let smallest = if smallest.is_finite() { smallest } else { inputs.extent.radius() };
     inputs.sampling.distance_mm.unwrap_or(smallest)
@@ -122,7 +132,10 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
     for placed in &inputs.volumes {
         media.extend(view.medium(placed, alone)?);
     }
-    let rays = Rays { polygons, slabs };
+    let skips = inputs.sampling.skip != Skip::None;
+    let projections = Projections::new(&inputs.projections, camera, slabs.distance, skips);
+    let projections = projections.map_err(|problem| Error::entity("view", problem))?;
+    let rays = Rays { polygons, projections, slabs };
     match media.len() {
         0 => rays.refine(inputs, layout, &Nothing, watch),
         1 => match media.swap_remove(0) {
@@ -222,12 +235,13 @@ impl<'a> SharedView<'a> {
 }
 
 /// What the rays of a view share, whatever they meet.
-struct Rays {
+struct Rays<'a> {
     polygons: Polygons,
+    projections: Projections<'a>,
     slabs: Slabs,
 }
 
-impl Rays {
+impl Rays<'_> {
     fn refine<M: Media>(
         self,
         inputs: &Inputs,
@@ -240,9 +254,10 @@ impl Rays {
         // Regions down to two pixels' side are split where outlines cross them.
         let outlines = (polygons && sampling.outlines && sampling.coarsest > 4)
             .then(|| self.polygons.outlines(&layout, 8));
-        let Self { polygons: faces, slabs } = self;
+        let Self { polygons: faces, projections, slabs } = self;
         let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
-        let caster = BeamCaster { polygons: faces, slabs, media, three_colors: supersampled };
+        let caster =
+            BeamCaster { polygons: faces, projections, slabs, media, three_colors: supersampled };
         let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
             .refine(watch)?;
         Ok(Samples(Arc::new(array)))

@@ -79,7 +79,7 @@ impl Polygons {
         for &number in near {
             let face = &self.faces[number as usize];
             if face.holds(window) {
-                hits.push(Hit { depth: face.depth(window), face: number });
+                hits.push(Hit { depth: face.depth(window), face: number, value: 0.0 });
             }
         }
         let hits = &mut hits[first..];
@@ -92,6 +92,12 @@ impl Polygons {
             }
             tied.sort_unstable_by_key(|hit| hit.face);
         }
+    }
+
+    /// Whether nothing is seen through a hit.
+    pub fn is_opaque(&self, hit: &Hit) -> bool {
+        let appearance = self.faces[hit.face as usize].appearance();
+        appearance.opacity >= 1.0 && appearance.texture.is_none()
     }
 
     /// Associated colour and opacity of a hit, without texture and shadows.

@@ -2,7 +2,7 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{self, Clip, Material, OpacityUnit};
+use crate::components::{self, Clip, Material, OpacityUnit, Projection};
 use crate::error::Error;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
@@ -44,7 +44,8 @@ impl System for Classify {
             Option<&'a Clip>,
         );
         let watch = out.watch();
-        for (entity, scalars, ranges, grid, classify, unit, clip) in &mut world.query::<Volume>() {
+        let mut volumes = world.query::<Volume>().without::<&Projection>();
+        for (entity, scalars, ranges, grid, classify, unit, clip) in &mut volumes {
             let inputs = Inputs {
                 scalars: scalars.clone(),
                 ranges: ranges.clone(),

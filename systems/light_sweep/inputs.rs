@@ -99,7 +99,11 @@ pub(super) fn stated_volumes(world: &World) -> Vec<SceneVolume> {
     let mut all = volumes(world);
     let voxelized = world.query::<&Voxelize>().iter().next().is_some();
     let is_scanned = |entity| world.get::<&Scalars>(entity).is_ok();
-    all.retain(|volume| volume.content != Content::Clear || voxelized || is_scanned(volume.entity));
+    all.retain(|volume| match volume.content {
+        Content::Projected => voxelized,
+        Content::Clear => voxelized || is_scanned(volume.entity),
+        Content::Classified | Content::Painted => true,
+    });
     all
 }
 

@@ -9,7 +9,7 @@ use crate::view::observer;
 use crate::volume::gel::CELLS;
 use crate::volume::gel::Gel;
 use crate::volume::pyramid::Pyramid;
-use crate::volume::scene_volumes::{SceneVolume, visible};
+use crate::volume::scene_volumes::{SceneVolume, gels};
 use crate::with_texels;
 
 /// Makes the [`Pyramid`] of every gel, where the view's sampling asks for it.
@@ -42,7 +42,7 @@ impl System for StackPyramid {
             // Three bits a cell, a distance for each of eight blocks, and an entry in a table.
             bricks.saturating_mul(3 * size_of::<[u64; CELLS]>() as u64 + 8 + 4)
         };
-        let makes: Vec<_> = visible(world).iter().map(|v| (v.entity, bytes(v))).collect();
+        let makes: Vec<_> = gels(world).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {
             return Plan::absent("no volume is stated");
         }

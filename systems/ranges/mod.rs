@@ -33,7 +33,8 @@ impl System for FindRanges {
 
     fn plan(world: &World) -> Plan {
         let bytes = |v: &SceneVolume| (v.entity, ranges::bytes(v.size()));
-        let makes: Vec<_> = with_content(world, Content::Classified).iter().map(bytes).collect();
+        let asked = [Content::Classified, Content::Projected].map(|c| with_content(world, c));
+        let makes: Vec<_> = asked.iter().flatten().map(bytes).collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }

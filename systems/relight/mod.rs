@@ -17,7 +17,7 @@ use crate::volume::gel::{self, GelBricks};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
-use crate::volume::scene_volumes::{Content, SceneVolume, visible};
+use crate::volume::scene_volumes::{Content, SceneVolume, gels};
 
 use lit_layer::LitLayer;
 
@@ -73,7 +73,7 @@ impl System for Relight {
             let apart = cued && (matted || v.content != Content::Painted);
             gel::most_bytes(texel, v.size()).saturating_mul(1 + u64::from(apart))
         };
-        let makes: Vec<_> = visible(world).iter().map(|v| (v.entity, bytes(v))).collect();
+        let makes: Vec<_> = gels(world).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {
             return Plan::absent("no volume is stated");
         }

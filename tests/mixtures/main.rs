@@ -5,6 +5,7 @@ mod composing;
 mod cues;
 mod maps;
 mod operators;
+mod projecting;
 mod removing;
 mod shadows;
 mod shafts;

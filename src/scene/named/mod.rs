@@ -13,18 +13,25 @@ const BINS: usize = 4096;
 /// What an unsigned CT adds to Hounsfield units, so that air is not negative.
 pub(super) const SHIFT: f32 = 1024.0;
 
-/// The classification that a name stands for, and what was guessed; `None` where none is named.
+/// The classification that a name stands for, and what was guessed; `None` where none is named. Colors of a projection
+/// are all as opaque as the last.
 pub(super) fn classification(
     stated: &Classify<Level>,
     scalars: &Scalars,
+    projected: bool,
 ) -> Option<(Classify, Option<String>)> {
     if let Some(map) = stated.colormap {
         let counted = histogram(scalars, BINS);
         let (low, high) = (counted.quantile(0.01), counted.quantile(0.99));
         let window = stated.window.unwrap_or(span(low, high));
         let level = stated.level.unwrap_or(f32::midpoint(low, high));
-        let peak = stated.peak_opacity.unwrap_or(0.25);
-        let points = colormap::points(map, [level - window / 2.0, level + window / 2.0], peak);
+        let peak = stated.peak_opacity.unwrap_or(if projected { 1.0 } else { 0.25 });
+        let mut points = colormap::points(map, [level - window / 2.0, level + window / 2.0], peak);
+        if projected {
+            for point in &mut points {
+                point.opacity = peak;
+            }
+        }
         return Some((Classify { transfer: points, ..Classify::default() }, None));
     }
     stated.preset.map(|preset| of_preset(preset, scalars))
@@ -209,7 +216,7 @@ mod tests {
     }
 
     fn named(stated: &Classify<Level>, values: Vec<f32>) -> (Classify, Option<String>) {
-        classification(stated, &Scalars::F32(Shared::new(values))).unwrap()
+        classification(stated, &Scalars::F32(Shared::new(values)), false).unwrap()
     }
 
     fn rising(classify: &Classify) -> bool {
