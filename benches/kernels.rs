@@ -130,7 +130,7 @@ fn pyramid(bencher: Bencher) {
 #[divan::bench(args = ["pyramid", "none"])]
 fn hollow(bencher: Bencher, skip: &str) {
     let volume = "volume = { file = \"phantom:ball\" }";
-    let shell = "classify = { iso = [{ value = 0.4, opacity = 0.01, thickness_voxels = 0.5 }] }";
+    let shell = "classify = { iso = [{ value = 0.4, opacity = 0.01, thickness_voxels = 0.5, form = \"around\" }] }";
     let scene = BALL
         .replace(volume, &format!("{volume}\n{shell}"))
         .replace("finest = 4", &format!("finest = 4, skip = \"{skip}\""));

@@ -125,7 +125,7 @@
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one
 //!   brick. It costs 42 % of memory where all is full, and nothing where all is empty, for such bricks are not stored.
 //! - **The normal is −∇f**, out of what is denser. `two_sided` materials turn it to the light.
-//! - **A clip is opacity**, baked in by `classify` as a ramp one voxel wide: a cut face shows no stairs, its inside is lit
+//! - **A clip is opacity**, baked in by `classify` as a ramp one voxel wide along its normal: a cut face shows no stairs, its inside is lit
 //!   and shadowed like any other gel, and the pyramid steps over what was cut away.
 //! - **Scan-converted opacity is calibrated** so that a plane seen face-on has its stated opacity, in the mean over its
 //!   places between voxels; `calibrated = false` gives the paper's ([`coverage`]).
@@ -141,6 +141,23 @@
 //!   ellipse, trilinear, bilinear and nearest are measured against it.
 //! - **Regions that outlines of polygons cross are split to a ray a pixel from the start** (`outlines`): polygons smaller
 //!   than the first grid of rays are not lost between them.
+//!
+//! # What the paper leaves open, as chosen here
+//!
+//! - Position p of the sample array lies at p/4 of a pixel; a pixel is the integral of the bilinear interpolation between
+//!   positions. `roll` turns the picture counter-clockwise.
+//! - A window without a stated height just holds the silhouette of the scene's box, with 5 % free on each side.
+//! - A contour is of what is *above* its isovalue, as other programs show it; `form = "around"` is the paper's region, seen
+//!   on both sides of the isovalue and so also at steep boundaries that pass it by.
+//! - N = −∇f/|∇f| is one-sided. Specular light is not gated by N·L. Ambient light counts once, without a light's colour.
+//! - Colours of contours weigh by their own opacity; those of regions are associated, and outside of the tissues opacity is 0.
+//! - Paint in integers is sRGB, in floats linear. Paint and textures state straight alpha.
+//! - Factors of several clips combine by their minimum, each a ramp one voxel wide along its own normal. The mattes `in` and
+//!   `out` multiply the volume by 1 − min(1, 4/3 coverage).
+//! - Columns of a sweep are anchored at the slice of entry and run along the axis nearest to the light in index space; biases
+//!   count in smallest spacings; a slide is averaged over a column's cell.
+//! - Scalars are classified as 32-bit floats; where that loses digits which tell values apart, it is said.
+//! - Polygons are simple, holes lie inside and do not overlap; anything else is refused, for the two methods would differ.
 //!
 //! # Limits
 //!

@@ -111,10 +111,13 @@ pub struct Contour<L = f32> {
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
-    /// r: thickness of the transition from opaque to clear, in voxels (world: r · opacity unit); above 0.
+    /// r: thickness of the transition between opaque and clear, in voxels (world: r · opacity unit); above 0.
     #[serde(default = "two")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub thickness_voxels: f32,
+    /// On which sides of the isovalue the contour is seen; default: all that is above it.
+    #[serde(default)]
+    pub form: Form,
     /// Colour of the contour; default: the material's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -171,11 +174,23 @@ impl Classify {
     }
 }
 
+/// On which sides of its isovalue a contour is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Form {
+    /// What is above the isovalue: clear at it, opaque from r voxels further in. Nothing below it is seen.
+    #[default]
+    Above,
+    /// The region around the isovalue (Levoy 1988): opaque at it, clear r voxels to either side, so that a steep boundary
+    /// which passes the isovalue by is seen as well.
+    Around,
+}
+
 impl Contour {
-    /// An opaque contour at `value`, two voxels thick, in the material's colour.
+    /// An opaque contour of what is above `value`, two voxels from clear to opaque, in the material's colour.
     #[must_use]
     pub fn at(value: f32) -> Self {
-        Self { value, opacity: one(), thickness_voxels: two(), color: None }
+        Self { value, opacity: one(), thickness_voxels: two(), form: Form::Above, color: None }
     }
 }
 

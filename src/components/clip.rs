@@ -22,14 +22,21 @@ impl Clip {
     /// How far inside the kept part a point lies, world units; negative inside what is taken away.
     #[must_use]
     pub fn distance(&self, point: DVec3) -> f64 {
-        let planes = self.planes.iter().map(|&[a, b, c, d]| {
+        self.faces(point).map(|(distance, _)| distance).fold(f64::INFINITY, f64::min)
+    }
+
+    /// For each plane, and for the nearest side of the box: how far on the kept side of it a point lies, world units, and
+    /// the unit vector across it.
+    pub fn faces(&self, point: DVec3) -> impl Iterator<Item = (f64, DVec3)> {
+        let planes = self.planes.iter().map(move |&[a, b, c, d]| {
             let normal = DVec3::new(a, b, c);
-            (d - normal.dot(point)) / normal.length()
+            ((d - normal.dot(point)) / normal.length(), normal.normalize_or_zero())
         });
         let outside_box = self.r#box.map(|[p, q]| {
             let (low, high) = (DVec3::from(p).min(q.into()), DVec3::from(p).max(q.into()));
-            (low - point).max(point - high).max_element()
+            let outside = (low - point).max(point - high);
+            (outside.max_element(), DVec3::AXES[outside.max_position()])
         });
-        planes.chain(outside_box).fold(f64::INFINITY, f64::min)
+        planes.chain(outside_box)
     }
 }

@@ -19,7 +19,9 @@ mod view;
 mod volume;
 
 pub use animate::{Animate, Ease, Keyed, Track};
-pub use classify::{Classify, Contour, Level, Material as ClassifyMaterial, Tissue, TransferPoint};
+pub use classify::{
+    Classify, Contour, Form, Level, Material as ClassifyMaterial, Tissue, TransferPoint,
+};
 pub use clip::Clip;
 pub use color::Color;
 pub use light::{CastsShadow, Light, Observer, Shaft, Toward};

@@ -13,10 +13,12 @@ pub struct Sampling {
     pub distance_mm: Option<f64>,
     /// What steps over empty space; lossless.
     pub skip: Skip,
-    /// ε_T: a ray stops when what is behind can add no more than this to any channel; 0 = never, below 1.
+    /// ε_T: a ray stops when what is behind can add no more than this to any channel; 0 = never, below 1. That holds for
+    /// colours up to 1: where lights sum to s > 1, what is behind may add s · ε_T.
     #[schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0))]
     pub stop_at: f32,
-    /// ε_C: a region whose corners differ in C by more than this in any channel is split; 0 = always.
+    /// ε_C: a region whose corners differ in C by more than this in any channel is split; 0 = always. Either way it splits to
+    /// one ray a pixel; what is split further is for `edge_tolerance` to say.
     #[schemars(range(min = 0.0))]
     pub tolerance: f32,
     /// ε_G: below a ray a pixel a region is split only if both C_G and C_A range by more than this.
@@ -90,9 +92,11 @@ pub enum TexelKind {
     Auto,
     /// 32-bit floats: 16 bytes a voxel.
     F32,
-    /// 16-bit fixed point, error 2⁻¹⁷ a channel: 8 bytes a voxel.
+    /// 16-bit fixed point, error 2⁻¹⁷ a channel of the gel and about 3e-5 of a picture: 8 bytes a voxel. Colours above 1 are
+    /// cut to 1.
     U16,
-    /// 8-bit fixed point, error 2⁻⁹ a channel: 4 bytes a voxel.
+    /// 8-bit fixed point, error 2⁻⁹ a channel of the gel and about 0.01 of a picture: 4 bytes a voxel. Colours above 1 are
+    /// cut to 1.
     U8,
 }
 

@@ -19,7 +19,8 @@ pub struct View {
     /// The world point in the middle of the window; default: the centre of the scene's bounding box.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focal_point: Option<[f64; 3]>,
-    /// Height of the window in world units, above 0; default: the diameter of the scene's bounding sphere.
+    /// Height of the window in world units, above 0; default: what the silhouette of the scene's bounding box fits into, with
+    /// 5 % left free on each side.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub height_mm: Option<f64>,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::simple;
 use crate::view::extent::Extent;
 
 /// How far a vertex may lie from the plane of its polygon, as a part of the polygon's extent.
@@ -40,7 +41,7 @@ impl Faces {
 }
 
 impl Face {
-    /// A polygon with its holes, checked: at least three vertices an outline, finite, of some area, and in one plane.
+    /// A polygon with its holes, checked: at least three vertices an outline, finite, of some area, in one plane, and simple.
     ///
     /// The error is a sentence without a subject, for the caller to put the entity's name before it.
     pub fn new(outlines: Vec<Vec<DVec3>>) -> Result<Self, String> {
@@ -60,7 +61,12 @@ impl Face {
         let extent = outlines.iter().flatten().map(|v| v.distance(center)).fold(0.0, f64::max);
         let normal = doubled_area(outline, center);
         if normal.length() <= 1e-12 * extent * extent || extent == 0.0 {
-            return Err("its vertices lie on one line; a polygon needs an area".to_owned());
+            let problem = if on_one_line(outline, center) {
+                "its vertices lie on one line; a polygon needs an area"
+            } else {
+                "its outline crosses itself, and what it encloses cancels out; split it where it crosses"
+            };
+            return Err(problem.to_owned());
         }
         let normal = normal.normalize();
         let out = |v: &&DVec3| normal.dot(**v - center).abs() > OUT_OF_PLANE * extent;
@@ -73,8 +79,17 @@ impl Face {
                 normal.dot(*vertex - center).abs()
             ));
         }
+        simple::check(&outlines, normal)?;
         Ok(Self { normal, center, outlines })
     }
+}
+
+/// Whether all vertices lie on the line through their mean and the vertex farthest from it.
+fn on_one_line(outline: &[DVec3], center: DVec3) -> bool {
+    let far = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
+    let from = || outline.iter().map(|vertex| *vertex - center);
+    let along = from().max_by(far).unwrap_or_default();
+    from().all(|v| along.cross(v).length() <= 1e-12 * along.length_squared())
 }
 
 /// Newell's sum: a vector along the normal, as long as twice the area of the outline.
@@ -104,5 +119,8 @@ mod tests {
         assert!(Face::new(vec![square(0.0)[..2].to_vec()]).unwrap_err().contains("at least 3"));
         assert!(Face::new(vec![line]).unwrap_err().contains("area"));
         assert!(Face::new(vec![bent]).unwrap_err().contains("triangles"));
+        let mut bow = square(0.0);
+        bow.swap(1, 2);
+        assert!(Face::new(vec![bow]).unwrap_err().contains("crosses itself"));
     }
 }

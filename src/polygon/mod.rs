@@ -4,4 +4,5 @@ pub mod arrays;
 pub mod coverage;
 pub mod face;
 pub(crate) mod shape;
+mod simple;
 pub mod texture;

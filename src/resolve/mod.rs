@@ -32,6 +32,6 @@ pub fn resolve(world: &mut World) -> Result<Vec<Notice>, Fault> {
     slides::fill_in(world, extent)?;
     order::fill_in(world);
     lights::fill_in(world, extent, &mut notices)?;
-    view::fill_in(world, extent)?;
+    view::fill_in(world, extent, &mut notices)?;
     Ok(notices)
 }

@@ -3,11 +3,11 @@
 use hecs::{Entity, World};
 
 use super::carriers::{carriers, get};
-use super::fault::Fault;
+use super::fault::{Fault, Notice};
 use super::fill::fill;
 use super::lights::falloff;
 use super::order::spawn;
-use crate::components::{DepthCue, Sampling, View};
+use crate::components::{DepthCue, Light, Sampling, TexelKind, View};
 use crate::polygon::face::Faces;
 use crate::view::extent::Extent;
 use crate::volume::grid::Grid;
@@ -33,7 +33,11 @@ pub(super) fn extent(world: &World) -> Result<Extent, Fault> {
 }
 
 /// Gives every view its sampling and the extent of the scene, and a world without a view the default one.
-pub(super) fn fill_in(world: &mut World, extent: Extent) -> Result<(), Fault> {
+pub(super) fn fill_in(
+    world: &mut World,
+    extent: Extent,
+    notices: &mut Vec<Notice>,
+) -> Result<(), Fault> {
     let default = carriers::<DefaultView>(world);
     let views = carriers::<View>(world);
     if views.is_empty() {
@@ -49,8 +53,20 @@ pub(super) fn fill_in(world: &mut World, extent: Extent) -> Result<(), Fault> {
         fill(world, view, (), |()| Ok(Sampling::default()))?;
         fill(world, view, extent, |extent| Ok(*extent))?;
         check_distance(world, view, extent)?;
+        notices.extend(cut_colors(world, view));
     }
     Ok(())
+}
+
+/// Says that texels of whole numbers cut colors which lights make brighter than 1.
+fn cut_colors(world: &World, view: Entity) -> Option<Notice> {
+    let texel = get::<Sampling>(world, view)?.texel;
+    let whole = matches!(texel, TexelKind::U16 | TexelKind::U8) && !visible(world).is_empty();
+    let sum: f64 = world.query::<&Light>().iter().map(|light| f64::from(light.strength)).sum();
+    let problem = format!(
+        "`texel` keeps colors up to 1 and the lights sum to {sum}: what is brighter is cut; state \"auto\" or \"f32\""
+    );
+    (whole && sum > 1.0).then_some(Notice { entity: view, problem })
 }
 
 /// The most samples that a ray may have before it is refused as a slip: a thousand for each voxel of a thousand in a row.

@@ -153,6 +153,9 @@ fn placed(
 /// Puts scalars on the entity, with the classification in numbers if one is stated.
 fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(), Error> {
     let projected = loading.get::<Projection>(entry).is_some();
+    if let Some(problem) = scalars.lost_digits() {
+        loading.warn(entry, problem);
+    }
     if let Some(stated) = loading.get::<Classify<Level>>(entry) {
         let classify = match named::classification(&stated, &scalars, projected) {
             Some((made, said)) => {
@@ -191,8 +194,8 @@ fn in_numbers(
             "a level in sigma needs a volume whose mean and deviation are finite; state a number";
         let value = value
             .ok_or_else(|| loading.error(entry, "classify", &format!("iso.{i}.value"), problem))?;
-        let Contour { opacity, thickness_voxels, color, .. } = contour;
-        Ok(Contour { value, opacity, thickness_voxels, color })
+        let Contour { opacity, thickness_voxels, form, color, .. } = contour;
+        Ok(Contour { value, opacity, thickness_voxels, form, color })
     };
     let iso = stated.iso.into_iter().enumerate().map(number).collect::<Result<_, Error>>()?;
     let Classify { regions, transfer, gradient, materials, .. } =

@@ -8,6 +8,8 @@ use super::turn::{Axis, turned};
 use crate::components::{Animate, Name, Order, Track, View};
 use crate::error::{Blame, Error};
 use crate::scene::{Kept, Loads, Scene, load_keeping, overridden};
+use crate::view::camera::Camera;
+use crate::view::extent::Extent;
 use crate::view::observer::first_view;
 
 /// A scene in motion: a world that is made ready for one picture after the other, in any order.
@@ -24,6 +26,8 @@ pub struct Film {
     view: (String, View),
     /// By the names of their entities, in the order of the scene.
     tracks: Vec<(String, Track)>,
+    /// The height of every window, world units, where neither the view nor a track states one.
+    height: Option<f64>,
 }
 
 impl Film {
@@ -41,8 +45,24 @@ impl Film {
         let scene = load_keeping(&loads, &changes, &mut kept)?;
         let tracks = tracks(&scene.world);
         let axis = axis.or(tracks.is_empty().then_some(Axis::Azimuth));
-        let view = view(&scene.world)?;
-        Ok(Self { loads, changes, kept, scene, range, axis, view, tracks })
+        let (view, extent) = view(&scene.world)?;
+        let mut film =
+            Self { loads, changes, kept, scene, range, axis, view, tracks, height: None };
+        film.height = film.fitted(&extent);
+        Ok(film)
+    }
+
+    /// The height of a window that holds the scene in every picture: fitted to each alone, it would breathe.
+    fn fitted(&self, extent: &Extent) -> Option<f64> {
+        let own = |(name, track): &(String, Track)| {
+            *name == self.view.0 && track.key.starts_with("view.height_mm")
+        };
+        let stated = self.view.1.height_mm.is_some() || self.tracks.iter().any(own);
+        let height = |number: usize| {
+            let camera = Camera::new(&self.view_of(number), extent);
+            camera.pixel * camera.size[1] as f64
+        };
+        (!stated).then(|| (0..self.range.count()).map(height).fold(0.0, f64::max))
     }
 
     /// The pictures of the sequence.
@@ -59,9 +79,11 @@ impl Film {
             format!("{name}.{}={}", track.key, value(track, part))
         };
         let mut changes: Vec<_> = self.tracks.iter().map(set).collect();
-        if let Some(axis) = self.axis {
-            let before = self.view_at(part);
-            let after = turned(&before, axis, self.range.degrees(number));
+        if let Some(height) = self.height {
+            changes.push(format!("{}.view.height_mm={height}", self.view.0));
+        }
+        if self.axis.is_some() {
+            let (before, after) = (self.view_at(part), self.view_of(number));
             let angle = |key, before: f64, after: f64| {
                 (before != after).then(|| format!("{}.view.{key}={after}", self.view.0))
             };
@@ -106,6 +128,15 @@ impl Film {
         self.changes.iter().cloned().chain(own).collect()
     }
 
+    /// Where the observer stands in a picture.
+    fn view_of(&self, number: usize) -> View {
+        let before = self.view_at(self.range.part(number));
+        self.axis.map_or_else(
+            || before.clone(),
+            |axis| turned(&before, axis, self.range.degrees(number)),
+        )
+    }
+
     /// The view before it turns: as stated, or as keyframes have it.
     fn view_at(&self, part: f64) -> View {
         let mut view = self.view.1.clone();
@@ -114,6 +145,7 @@ impl Film {
                 "view.azimuth" => &mut view.azimuth,
                 "view.elevation" => &mut view.elevation,
                 "view.roll" => &mut view.roll,
+                "view.field_of_view" => view.field_of_view.get_or_insert_default(),
                 _ => continue,
             };
             *angle = value(track, part).parse().unwrap_or(*angle);
@@ -152,10 +184,60 @@ fn tracks(world: &World) -> Vec<(String, Track)> {
     animated.into_iter().flat_map(named).collect()
 }
 
-fn view(world: &World) -> Result<(String, View), Error> {
+/// The first view, what it is called and states, and the box that it shows.
+fn view(world: &World) -> Result<((String, View), Extent), Error> {
     let missing = || Error::Schedule("the scene was loaded without a view".to_owned());
     let entity = first_view(world).ok_or_else(missing)?;
-    let mut found = world.query_one::<(&Name, &View)>(entity);
-    let (name, view) = found.get().map_err(|_| missing())?;
-    Ok((name.0.clone(), view.clone()))
+    let mut found = world.query_one::<(&Name, &View, &Extent)>(entity);
+    let (name, view, extent) = found.get().map_err(|_| missing())?;
+    Ok(((name.0.clone(), view.clone()), *extent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    fn film(view: &str) -> Film {
+        let text = format!(
+            "[[entity]]\nname = \"v\"\nvolume = {{ file = \"phantom:ball\" }}\n[[entity]]\nname = \"o\"\n{view}\n"
+        );
+        let source = Source::inline("s", text);
+        let loads = Loads { data: Vec::new(), exact: false, most_bytes: None, source };
+        Film::open(loads, Vec::new(), Range::turn(8), None).unwrap()
+    }
+
+    /// What each picture says of the height of its window, as TOML.
+    fn heights(film: &Film) -> Vec<String> {
+        let height = |number| {
+            let changes = film.changes(number);
+            changes.iter().filter_map(|c| c.strip_prefix("o.view.height_mm=")).collect()
+        };
+        (0..8).map(height).collect()
+    }
+
+    #[test]
+    fn a_window_without_a_stated_height_keeps_one_that_holds_every_picture() {
+        let stated = film("view = { size = [40, 40], height_mm = 9 }");
+        assert!(heights(&stated).iter().all(String::is_empty));
+        for view in ["view = { size = [40, 40] }", "view = { size = [40, 30], field_of_view = 40 }"]
+        {
+            let film = film(view);
+            let heights = heights(&film);
+            assert!(heights.iter().all(|height| *height == heights[0]), "{heights:?}");
+            let (_, extent) = super::view(&film.scene.world).unwrap();
+            let mut free = f64::INFINITY;
+            for number in 0..8 {
+                let view = View { height_mm: heights[0].parse().ok(), ..film.view_of(number) };
+                let camera = Camera::new(&view, &extent);
+                for corner in extent.corners() {
+                    let [x, y] = camera.project(corner).0.to_array();
+                    let [width, height] = camera.size.map(|side| side as f64);
+                    let sides = [x / width, 1.0 - x / width, y / height, 1.0 - y / height];
+                    free = sides.into_iter().fold(free, f64::min);
+                }
+            }
+            assert!((free - 0.05).abs() < 1e-9, "{free}");
+        }
+    }
 }

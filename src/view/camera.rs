@@ -45,10 +45,12 @@ impl Camera {
         let up = right.cross(forward);
         let (sin_r, cos_r) = sin_cos(view.roll);
         let focal = view.focal_point.map_or_else(|| extent.center(), DVec3::from);
-        let height = view.height_mm.unwrap_or(2.0 * extent.radius());
+        let (right, up) = (right * cos_r - up * sin_r, up * cos_r + right * sin_r);
+        let height =
+            view.height_mm.unwrap_or_else(|| fitted(view, extent, focal, [right, up, forward]));
         Self {
-            right: right * cos_r - up * sin_r,
-            up: up * cos_r + right * sin_r,
+            right,
+            up,
             forward,
             focal,
             pixel: height / f64::from(view.size[1]),
@@ -116,6 +118,27 @@ impl Camera {
         let (x, y) = (self.right.dot(drawn) / self.pixel, self.up.dot(drawn) / self.pixel);
         (DVec2::new(x + width / 2.0, height / 2.0 - y), depth)
     }
+}
+
+/// The part of the window's height, or of its width, that is left free on each side of what a default view shows.
+const MARGIN: f64 = 0.05;
+
+/// The height of a window that the silhouette of the scene's box just fits, but for [`MARGIN`].
+///
+/// In perspective the eye goes back with the height h by `k h`: a corner at `y` above the axis and at depth d is drawn at
+/// `y k h / (k h + d)`, which is within the part m of h from `h = y / m − d / k` on.
+fn fitted(view: &View, extent: &Extent, focal: DVec3, [right, up, forward]: [DVec3; 3]) -> f64 {
+    let [width, height] = view.size.map(f64::from);
+    let half = 0.5 - MARGIN;
+    let backward =
+        view.field_of_view.map_or(0.0, |degrees| 2.0 * libm::tan(degrees.to_radians() / 2.0));
+    let needed = extent.corners().into_iter().map(|corner| {
+        let from = corner - focal;
+        let (x, y) = (from.dot(right).abs() * height / width, from.dot(up).abs());
+        x.max(y) / half - from.dot(forward) * backward
+    });
+    let fitted = needed.fold(0.0, f64::max);
+    if fitted > 0.0 { fitted } else { 2.0 * extent.radius() }
 }
 
 /// Sine and cosine of an angle in degrees, exact at quarter turns and the same on every machine.

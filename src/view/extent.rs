@@ -26,6 +26,13 @@ impl Extent {
         (self.low + self.high) / 2.0
     }
 
+    /// The eight corners of the box.
+    #[must_use]
+    pub fn corners(&self) -> [DVec3; 8] {
+        let side = |bit: usize| if bit == 0 { self.low } else { self.high };
+        std::array::from_fn(|i| DVec3::new(side(i & 1).x, side(i >> 1 & 1).y, side(i >> 2).z))
+    }
+
     /// How many samples at that distance a ray through the whole scene has at the most.
     #[must_use]
     pub fn samples(&self, distance: f64) -> f64 {

@@ -10,8 +10,8 @@ use crate::volume::grid::Grid;
 pub struct Cut {
     clip: Clip,
     index_to_world: DAffine3,
-    /// Over how much the opacity falls: the smallest spacing, world units.
-    width: f64,
+    /// The most over which the opacity falls: the largest spacing, world units.
+    widest: f64,
 }
 
 /// How much of a block of voxels a cut leaves.
@@ -29,8 +29,8 @@ impl Cut {
     /// The cut that `clip` makes in a volume on `grid`.
     #[must_use]
     pub fn new(clip: &Clip, grid: &Grid) -> Self {
-        let width = grid.spacing().min_element();
-        Self { clip: clip.clone(), index_to_world: grid.index_to_world, width }
+        let widest = grid.spacing().max_element();
+        Self { clip: clip.clone(), index_to_world: grid.index_to_world, widest }
     }
 
     /// What is left of the `extent` voxels from `first` on; `Part` where a bounding sphere cannot tell.
@@ -42,9 +42,9 @@ impl Cut {
         let radius =
             m.x_axis.length() * half.x + m.y_axis.length() * half.y + m.z_axis.length() * half.z;
         let inside = self.clip.distance(self.index_to_world.transform_point3(middle));
-        if inside - radius >= self.width / 2.0 {
+        if inside - radius >= self.widest / 2.0 {
             Left::Whole
-        } else if inside + radius <= -self.width / 2.0 {
+        } else if inside + radius <= -self.widest / 2.0 {
             Left::Nothing
         } else {
             Left::Part
@@ -55,9 +55,16 @@ impl Cut {
     #[must_use]
     pub fn factor(&self, voxel: [usize; 3]) -> f32 {
         let voxel = DVec3::from(voxel.map(|n| n as f64));
-        let inside = self.clip.distance(self.index_to_world.transform_point3(voxel));
-        // The distance is no NaN: a plane or box that is one cuts nothing.
-        (inside / self.width + 0.5).clamp(0.0, 1.0) as f32
+        let faces = self.clip.faces(self.index_to_world.transform_point3(voxel));
+        // No distance is a NaN: a plane or box that is one cuts nothing.
+        let ramps = faces.map(|(inside, normal)| inside / self.voxel(normal) + 0.5);
+        ramps.fold(1.0, f64::min).max(0.0) as f32
+    }
+
+    /// How long a voxel is along a unit vector, world units: in voxels that are not cubes, a cut nearly along the slices
+    /// falls over a whole slice.
+    fn voxel(&self, normal: DVec3) -> f64 {
+        (self.index_to_world.matrix3.transpose() * normal).length()
     }
 }
 
@@ -70,12 +77,29 @@ mod tests {
     }
 
     #[test]
-    fn opacity_falls_from_whole_to_none_over_the_smallest_spacing() {
+    fn opacity_falls_from_whole_to_none_over_one_voxel_along_the_normal() {
         let plane = |d: f64| Clip { planes: vec![[2.0, 0.0, 0.0, 2.0 * d]], r#box: None };
         let factors = |d: f64| [9, 10, 11].map(|x| Cut::new(&plane(d), &grid()).factor([x, 3, 4]));
         assert_eq!(factors(15.0), [1.0, 0.5, 0.0]);
         assert_eq!(factors(15.25), [1.0, 0.75, 0.0]);
         assert_eq!(factors(15.5), [1.0, 1.0, 0.0]);
+        let slices = Clip { planes: vec![[0.0, 0.0, -1.0, 12.0]], r#box: None };
+        let along = [3, 4, 5].map(|z| Cut::new(&slices, &grid()).factor([2, 2, z]));
+        assert_eq!(along, [1.0, 0.5, 0.0], "a slice is three thick");
+    }
+
+    #[test]
+    fn a_cut_a_few_degrees_off_thick_slices_does_not_ripple() {
+        let grid = Grid::axis_aligned([64, 4, 32], [1.0, 1.0, 5.0], [0.0; 3]).unwrap();
+        let slope = 5.0_f64.to_radians().tan();
+        let cut = Cut::new(&Clip { planes: vec![[-slope, 0.0, 1.0, 60.3]], r#box: None }, &grid);
+        // How high the cut stands at x is what is left of its column.
+        let height =
+            |x: usize| (0..32).map(|z| 5.0 * f64::from(cut.factor([x, 1, z]))).sum::<f64>();
+        let off = |x: usize| height(x) - height(0) - slope * x as f64;
+        let ripple =
+            (0..64).map(off).fold([0.0_f64; 2], |[low, high], off| [low.min(off), high.max(off)]);
+        assert!(ripple[1] - ripple[0] < 0.1, "{ripple:?}");
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod arrays;
 pub mod bricks;
 pub mod classification;
 pub mod clipping;
+mod digits;
 pub mod gel;
 pub mod gradients;
 pub mod grid;

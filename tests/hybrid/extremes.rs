@@ -1,8 +1,8 @@
 //! The numerical extremes of algorithm §10 through the whole engine: every pixel finite, 0 ≤ α ≤ 1, colours within α.
 
 use gelray::components::{
-    Classify, Color, Contour, DepthCue, Light, Material, OpacityUnit, Order, Sampling, TexelKind,
-    Toward, View,
+    Classify, Color, Contour, DepthCue, Form, Light, Material, OpacityUnit, Order, Sampling,
+    TexelKind, Toward, View,
 };
 use gelray::shared::Shared;
 use gelray::view::extent::Extent;
@@ -148,7 +148,7 @@ fn contoured(
     texel: TexelKind,
 ) -> Picture {
     let mut world = World::new();
-    let contour = Contour { opacity: 0.9, ..Contour::at(8.0) };
+    let contour = Contour { opacity: 0.9, form: Form::Around, ..Contour::at(8.0) };
     let classify = Classify { iso: vec![contour], ..Classify::default() };
     let material = Material { diffuse: 0.6, specular: 0.2, ..Material::default() };
     world.spawn((

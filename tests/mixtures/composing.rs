@@ -43,7 +43,8 @@ impl Mixture {
         let Self { clip, shadow, shaft, texture, method, toward, sampling } = self;
         let volume = format!(
             "[[entity]]\nname = \"gel\"\nvolume = {{ file = \"phantom:ball\" }}\nclassify = {{ iso = [\
-             {{ value = 0.5, opacity = 0.7 }}, {{ value = 0.1, opacity = 0.15, color = \"#80b0ff\" }}] }}\n{clip}\n"
+             {{ value = 0.5, opacity = 0.7, form = \"around\" }}, \
+             {{ value = 0.1, opacity = 0.15, form = \"around\", color = \"#80b0ff\" }}] }}\n{clip}\n"
         );
         let textured = crate::polygon(
             "textured",

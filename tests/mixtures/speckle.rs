@@ -120,7 +120,7 @@ fn on_the_skull_of_a_study_the_default_bias_takes_much_of_the_speckle_and_lets_l
         return;
     };
     let skull = "[[entity]]\nname = \"head\"\nvolume = { file = \"cthead_small.nrrd\" }\n\
-        classify = { iso = [{ value = 1300 }] }\nmaterial = { ambient = 0, diffuse = 1 }\n";
+        classify = { iso = [{ value = 1300, form = \"around\" }] }\nmaterial = { ambient = 0, diffuse = 1 }\n";
     let [none, _, two, three, _] = table(skull, -10.0, 260.0, &[data]);
     assert!(two.speckle < none.speckle / 1.4 && three.speckle < two.speckle, "{none:?} {two:?}");
     assert!(two.leak < 0.1 && none.leak < two.leak && two.leak < three.leak, "{two:?}");

@@ -6,7 +6,7 @@ mod stages;
 mod thrift;
 
 use gelray::components::{
-    Classify, Color, Contour, Light, Material, Name, OpacityUnit, Order, Sampling, TexelKind,
+    Classify, Color, Contour, Form, Light, Material, Name, OpacityUnit, Order, Sampling, TexelKind,
     Toward, View,
 };
 use gelray::schedule::{Ran, Schedule, Watch};
@@ -35,7 +35,8 @@ fn prepare(world: &mut World) -> Vec<Ran> {
 
 /// A contour at `value` of thickness 2.
 fn contour(value: f32) -> Classify {
-    let contour = Contour { value, opacity: 0.9, thickness_voxels: 2.0, color: None };
+    let contour =
+        Contour { value, opacity: 0.9, thickness_voxels: 2.0, form: Form::Around, color: None };
     Classify { iso: vec![contour], ..Classify::default() }
 }
 

@@ -1,6 +1,6 @@
 //! What is left out is what would have come out empty: preparation brick by brick equals the formulas voxel by voxel.
 
-use gelray::components::{Classify, Clip, Contour, Material, Tissue, TransferPoint};
+use gelray::components::{Classify, Clip, Contour, Form, Material, Tissue, TransferPoint};
 use gelray::volume::bricks::EDGE;
 use gelray::volume::classification::Classifier;
 use gelray::volume::clipping::Cut;
@@ -25,7 +25,13 @@ fn lumps(grid: &Grid, seed: f64, height: f64) -> Vec<f32> {
 }
 
 fn ways(level: f32, thickness_voxels: f32) -> [Classify; 4] {
-    let contour = |value, opacity| Contour { value, opacity, thickness_voxels, color: None };
+    let contour = |value, opacity| Contour {
+        value,
+        opacity,
+        thickness_voxels,
+        form: Form::Around,
+        color: None,
+    };
     let tissue = |value, opacity| Tissue { value, opacity, color: None };
     let point = |value, opacity| TransferPoint { value, opacity, color: None };
     let transfer = vec![point(level, 0.0), point(level + 9.0, 0.5)];

@@ -22,12 +22,16 @@ fn command(place: &Place, words: &str) -> Command {
     command
 }
 
+/// What is stated for every picture to be framed alike.
+const HEIGHT: &str = "--set observer.view.height_mm=70";
+
 #[test]
 fn a_frame_of_a_turn_is_the_plain_render_of_its_view() {
     let place = Place::new();
-    place.done("animate cross.toml -o t.##.png --frames 8 --stats s.json");
+    place.done(&format!("animate cross.toml -o t.##.png --frames 8 --stats s.json {HEIGHT}"));
     for (frame, azimuth) in [(0, 30), (3, 165), (7, 345)] {
-        place.done(&format!("render cross.toml -o a.png --set observer.view.azimuth={azimuth}"));
+        let view = format!("{HEIGHT} --set observer.view.azimuth={azimuth}");
+        place.done(&format!("render cross.toml -o a.png {view}"));
         if frame > 0 {
             assert_eq!(place.read(&format!("t.0{frame}.png")), place.read("a.png"), "{frame}");
         }
@@ -67,7 +71,7 @@ light = { toward = [-0.5, -0.7, 0.6] }
 
 [[entity]]
 name = "eye"
-view = { size = [24, 24] }
+view = { size = [24, 24], height_mm = 300 }
 animate = { tracks = [{ key = "view.azimuth", to = [0, 90], ease = "smooth" }] }
 "##;
     place.write("moving.toml", scene);

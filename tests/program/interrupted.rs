@@ -29,6 +29,10 @@ fn signal(child: &Child, name: &str) {
 fn the_first_interrupt_stops_the_work_and_leaves_nothing_half_written() {
     let place = Place::new();
     place.write("planes.toml", many_planes());
+    // What an earlier run left: a set, and a part that it was killed over.
+    place.write("a.png", "older");
+    place.write("a.json", "{}");
+    place.write(".gelray-killed.part", "half");
     let mut child = Command::new(env!("CARGO_BIN_EXE_gelray"))
         .current_dir(place.path(""))
         .args("render planes.toml -o a.png --stats a.json --exact -v -t 1".split(' '))
@@ -47,5 +51,6 @@ fn the_first_interrupt_stops_the_work_and_leaves_nothing_half_written() {
     lines.read_to_string(&mut said).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
     assert!(said.contains("stopping") && said.contains("interrupted"), "{said}");
-    assert_eq!(place.names(), ["cross.toml", "planes.toml"]);
+    assert_eq!(place.names(), ["a.json", "a.png", "cross.toml", "planes.toml"]);
+    assert_eq!((place.read("a.png"), place.read("a.json")), (b"older".to_vec(), b"{}".to_vec()));
 }

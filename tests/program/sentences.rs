@@ -188,3 +188,39 @@ fn scenes_are_described_in_whole_sentences() {
     let list = Place::new().done("scenes").out;
     assert!(list.lines().all(|line| line.ends_with('.')), "{list}");
 }
+
+#[test]
+fn what_loses_digits_or_brightness_is_said() {
+    let place = Place::new();
+    let header =
+        "NRRD0004\ntype: int\ndimension: 3\nsizes: 3 3 3\nencoding: raw\nendian: little\n\n";
+    let values = (0..27).flat_map(|i: i32| (100_000_000 + i).to_le_bytes());
+    place.write("v.nrrd", header.bytes().chain(values).collect::<Vec<_>>());
+    let scene = "[[entity]]\nname = \"v\"\nvolume = { file = \"v.nrrd\" }\nclassify = { iso = [{ value = 100000009 }] }\n[[entity]]\nname = \"l\"\nlight = { toward = [0, -1, 0], strength = 4 }\n[[entity]]\nname = \"o\"\nview = { size = [9, 9] }\nsampling = { texel = \"u16\" }\n";
+    place.write("s.toml", scene);
+    let said = place.done("plan s.toml").err;
+    assert!(
+        said.contains("`v`: its values from 100000000 to 100000026 are taken as 32-bit floats"),
+        "{said}"
+    );
+    assert!(said.contains("the lights sum to 4: what is brighter is cut"), "{said}");
+    let said = place.done("plan s.toml --set o.sampling.texel=auto").err;
+    assert!(!said.contains("is cut"), "{said}");
+}
+
+#[test]
+fn polygons_that_the_two_methods_would_differ_on_are_refused() {
+    let place = Place::new();
+    let refused = |vertices: &str, more: &str, said: &[&str]| {
+        place.write(
+            "s.toml",
+            format!("[[entity]]\nname = \"p\"\npolygon = {{ vertices = {vertices}{more} }}\n"),
+        );
+        place.refused("render s.toml -o a.png", 1, said);
+    };
+    let square = "[[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]]";
+    refused("[[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]", "", &["`p`", "crosses itself"]);
+    refused("[[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 8, 0]]", "", &["edges", "cross; split it"]);
+    refused(square, ", holes = [[[20, 1, 0], [21, 1, 0], [21, 2, 0]]]", &["hole 1 lies outside"]);
+    refused(square, ", holes = [[[8, 1, 0], [12, 1, 0], [8, 5, 0]]]", &["of hole 1", "cross"]);
+}

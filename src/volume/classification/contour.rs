@@ -1,11 +1,12 @@
-//! Isovalue contours of Levoy 1988: opaque at `f_v`, falling to clear at a world distance that is stated in voxels.
+//! Isovalue contours: what is above `f_v`, or the region around it of Levoy 1988, clear at a distance stated in voxels.
 
 use glam::DVec3;
 
 use super::numbers::{opacity_in_range, square};
-use crate::components::{Color, Contour};
+use crate::components::{Color, Contour, Form};
 
-/// `α_v (1 − |f_v − f| / (r g))` for one or more contours.
+/// One or more contours: of what is above, `α_v · (f − f_v) / (r g)`, at most α_v; of the region around,
+/// `α_v (1 − |f_v − f| / (r g))`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contours(Vec<Line>);
 
@@ -17,6 +18,7 @@ struct Line {
     opacity: f64,
     /// r² in world units.
     squared_reach: f64,
+    form: Form,
     color: DVec3,
 }
 
@@ -25,13 +27,14 @@ impl Line {
     #[inline]
     fn opacity(&self, f: f64, gg: f64) -> f64 {
         let away = self.value - f;
-        let (away, reach) = (away * away, self.squared_reach * gg);
-        if away < reach {
-            self.opacity * (1.0 - (away / reach).sqrt())
-        } else if away == 0.0 {
-            self.opacity
-        } else {
-            0.0
+        let (square, reach) = (away * away, self.squared_reach * gg);
+        match self.form {
+            Form::Above if away > 0.0 || away.is_nan() => 0.0,
+            Form::Above if square < reach => self.opacity * (square / reach).sqrt(),
+            Form::Above => self.opacity,
+            Form::Around if square < reach => self.opacity * (1.0 - (square / reach).sqrt()),
+            Form::Around if square == 0.0 => self.opacity,
+            Form::Around => 0.0,
         }
     }
 }
@@ -45,6 +48,7 @@ impl Contours {
                 value: f64::from(contour.value),
                 opacity: opacity_in_range(contour.opacity),
                 squared_reach: reach * reach,
+                form: contour.form,
                 color: contour.color.map_or(color, |Color(own)| own.as_dvec3()),
             }
         };
@@ -64,9 +68,14 @@ impl Contours {
     /// Whether a contour may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
     pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
         self.0.iter().any(|line| {
-            let away = (low - line.value).max(line.value - high).max(0.0);
+            let above = match line.form {
+                Form::Above => 0.0,
+                Form::Around => low - line.value,
+            };
+            let away = above.max(line.value - high).max(0.0);
             let reach = line.squared_reach * steepest * steepest;
-            line.opacity > 0.0 && (away == 0.0 || away * away < reach)
+            let below = line.form == Form::Around && away * away < reach;
+            line.opacity > 0.0 && (away == 0.0 || below)
         })
     }
 
@@ -83,7 +92,23 @@ mod tests {
     use super::*;
 
     fn contour(value: f32, opacity: f32, thickness_voxels: f32) -> Contour {
-        Contour { value, opacity, thickness_voxels, color: None }
+        Contour { value, opacity, thickness_voxels, form: Form::Around, color: None }
+    }
+
+    #[test]
+    fn what_is_above_is_opaque_from_its_thickness_on_and_nothing_below_is_seen() {
+        let above = Contour { form: Form::Above, ..contour(100.0, 0.8, 2.0) };
+        let contours = Contours::new(&[above], DVec3::ONE, 1.5);
+        let at = |f: f64| contours.opacity(f, [0.0, 8.0, 6.0]);
+        assert!((at(115.0) - 0.4).abs() < 1e-7);
+        assert_eq!([at(130.0), at(4000.0), at(f64::INFINITY)], [f64::from(0.8_f32); 3]);
+        // A boundary from 0 to 90, as steep as one likes, does not reach 100.
+        assert_eq!([at(100.0), at(99.0), at(-5.0), at(f64::NAN)], [0.0; 4]);
+        let flat = |f| contours.opacity(f, [0.0; 3]);
+        assert_eq!(
+            [flat(100.0), flat(101.0), flat(99.0)],
+            [f64::from(0.8_f32), f64::from(0.8_f32), 0.0]
+        );
     }
 
     #[test]

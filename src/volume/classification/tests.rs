@@ -3,18 +3,21 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::components::{ClassifyMaterial, Color, Contour, Tissue, TransferPoint};
+use crate::components::{ClassifyMaterial, Color, Contour, Form, Tissue, TransferPoint};
 
 const RED: Option<Color> = Some(Color(Vec3::X));
 
 fn four_ways(value: f32, other: f32, opacity: f32, r: f32) -> [Classify; 4] {
-    let contour = |value, color| Contour { value, opacity, thickness_voxels: r, color };
+    let contour = |value, form, color| Contour { value, opacity, thickness_voxels: r, form, color };
     let tissue = |value, opacity| Tissue { value, opacity, color: None };
     let point = |value, opacity| TransferPoint { value, opacity, color: RED };
     let curve = vec![[value, 0.0], [other, 1.0]];
     let material = ClassifyMaterial { probability: curve, opacity, color: RED };
     [
-        Classify { iso: vec![contour(value, None), contour(other, RED)], ..Classify::default() },
+        Classify {
+            iso: vec![contour(value, Form::Around, None), contour(other, Form::Above, RED)],
+            ..Classify::default()
+        },
         Classify {
             regions: vec![tissue(value, opacity), tissue(other, 1.0)],
             ..Classify::default()
@@ -114,7 +117,7 @@ fn colors_are_the_stated_ones_and_else_the_material_s() {
     let [contours, regions, ..] = four_ways(60.0, 150.0, 0.7, 2.0);
     let contours = Classifier::new(&contours, &material, 1.0);
     assert_eq!(contours.color(60.0, [1.0, 0.0, 0.0]), Vec3::Z);
-    assert_eq!(contours.color(150.0, [1.0, 0.0, 0.0]), Vec3::X);
+    assert_eq!(contours.color(150.5, [1.0, 0.0, 0.0]), Vec3::X);
     assert_eq!(contours.color(f32::NAN, [1.0, 0.0, 0.0]), Vec3::Z);
     assert_eq!(Classifier::new(&regions, &material, 1.0).color(90.0, [0.0; 3]), Vec3::Z);
 }
