@@ -22,5 +22,6 @@ stages! {
     relight::Relight,
     pyramid::StackPyramid,
     cast::Cast,
+    furnish::Furnish,
     resample::Resample,
 }

@@ -19,9 +19,11 @@ mod vti;
 
 #[cfg(test)]
 mod hostile_files;
+pub mod label_table;
 #[cfg(test)]
 mod made;
 pub mod meshes;
+pub mod molecules;
 pub mod moving;
 pub mod pictures;
 #[cfg(test)]

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::simple;
+use crate::components::Color;
+use crate::shared::Shared;
 use crate::view::extent::Extent;
 
 /// How far a vertex may lie from the plane of its polygon, as a part of the polygon's extent.
@@ -28,6 +30,18 @@ pub struct Faces(pub Arc<Vec<Face>>);
 impl PartialEq for Faces {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// A color for each of the faces of one entity, in place of their surface's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FaceColors(pub Shared<Color>);
+
+impl FaceColors {
+    /// The color of face number `at`, if it has one.
+    #[must_use]
+    pub fn of(colors: Option<&Self>, at: usize) -> Option<Color> {
+        colors.and_then(|colors| colors.0.get(at).copied())
     }
 }
 

@@ -7,6 +7,7 @@
 mod carriers;
 mod fault;
 mod fill;
+mod furniture;
 mod lights;
 mod order;
 mod polygons;
@@ -26,6 +27,7 @@ pub use fault::{Fault, Notice};
 pub fn resolve(world: &mut World) -> Result<Vec<Notice>, Fault> {
     let mut notices = Vec::new();
     volumes::fill_in(world, &mut notices)?;
+    furniture::fill_in(world)?;
     polygons::fill_in(world)?;
     let extent = view::extent(world)?;
     textures::fill_in(world, &mut notices)?;

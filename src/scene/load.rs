@@ -9,7 +9,7 @@ use super::kept::Kept;
 use super::loading::{Folders, Loading};
 use super::parse::{ParsedScene, parse};
 use super::source::Source;
-use super::{meshes, overrides, textures, volume};
+use super::{meshes, molecules, overrides, textures, volume};
 use crate::components::Sampling;
 use crate::error::{Blame, Error, SceneError};
 
@@ -124,6 +124,7 @@ pub(super) fn stated<'t>(
     };
     volume::read(&mut loading)?;
     meshes::read(&mut loading)?;
+    molecules::read(&mut loading)?;
     textures::read(&mut loading)?;
     Ok(loading)
 }

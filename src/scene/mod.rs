@@ -5,15 +5,18 @@
 
 mod check;
 mod check_animate;
+mod check_figure;
 mod contact;
 mod entity;
 mod error;
 mod grammar;
 mod handed_over;
 mod kept;
+mod labels;
 mod load;
 mod loading;
 mod meshes;
+mod molecules;
 mod named;
 mod nearest;
 mod overrides;

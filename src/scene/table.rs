@@ -16,8 +16,9 @@ use super::check::Check;
 use super::error::Fault;
 use super::grammar;
 use crate::components::{
-    Animate, CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon,
-    Projection, Projects, Sampling, Shaft, Surface, Texture, Textured, View, Volume, Voxelize,
+    Animate, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Labels, Legend, Level,
+    Light, Material, Mesh, Molecule, Polygon, Projection, Projects, Sampling, ScaleBar, Shaft,
+    Surface, Texture, Textured, Title, View, Volume, Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -37,26 +38,36 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 19] = [
+pub(super) static COMPONENTS: [Row; 26] = [
     row::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
     row::<Clip>("clip", &["volume"]),
     row::<Projection>("projection", &["volume"]),
+    row::<Labels>("labels", &["volume"]),
     row::<Polygon>("polygon", &[]),
     row::<Mesh>("mesh", &[]),
-    row::<Surface>("surface", &["polygon", "mesh"]),
-    row::<Voxelize>("voxelize", &["polygon", "mesh"]),
+    row::<Molecule>("molecule", &[]),
+    row::<Surface>("surface", &["polygon", "mesh", "molecule"]),
+    row::<Voxelize>("voxelize", &["polygon", "mesh", "molecule"]),
     row::<Textured>("textured", &["polygon", "mesh"]),
     row::<Light>("light", &[]),
     row::<CastsShadow>("casts_shadow", &["light"]),
     row::<Projects>("projects", &["light"]),
     row::<Shaft>("shaft", &["light"]),
     row::<Texture>("texture", &[]),
+    row::<Title>("title", &[]),
+    row::<ScaleBar>("scale_bar", &[]),
+    row::<Legend>("legend", &[]),
+    row::<Callout>("callout", &[]),
+    row::<BoundingBox>("bounding_box", &[]),
     row::<View>("view", &[]),
     row::<Sampling>("sampling", &["view"]),
     row::<DepthCue>("depth_cue", &["view"]),
-    row::<Animate>("animate", &["volume", "polygon", "mesh", "light", "texture", "view"]),
+    row::<Animate>(
+        "animate",
+        &["volume", "polygon", "mesh", "molecule", "light", "texture", "view"],
+    ),
 ];
 
 impl Row {

@@ -6,8 +6,10 @@ use glam::DVec3;
 
 use super::kept::KeptVolume;
 use super::loading::Loading;
-use super::named;
-use crate::components::{Classify, Contour, Level, Material, OpacityUnit, Projection, Volume};
+use super::{labels, named};
+use crate::components::{
+    Classify, Contour, Labels, Level, Material, OpacityUnit, Projection, Volume,
+};
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
 use crate::phantom;
@@ -32,11 +34,21 @@ fn read_and_place(loading: &mut Loading, entry: usize) -> Result<(), Error> {
         loading.add(entry, (OpacityUnit(unit),));
     }
     match read.voxels {
-        Voxels::Scalars(scalars) => classified(loading, entry, scalars),
+        Voxels::Scalars(scalars) => match loading.get::<Labels>(entry) {
+            Some(stated) => match stated.file.clone() {
+                Some(file) => {
+                    labels::over_volume(loading, entry, (&stated, &file))?;
+                    classified(loading, entry, scalars)
+                }
+                None => labels::by_themselves(loading, entry, (&stated, &scalars)),
+            },
+            None => classified(loading, entry, scalars),
+        },
         Voxels::Painted(painted) => {
             for (key, stated) in [
                 ("classify", loading.get::<Classify<Level>>(entry).is_some()),
                 ("material", loading.get::<Material>(entry).is_some()),
+                ("labels", loading.get::<Labels>(entry).is_some()),
             ] {
                 if stated {
                     let problem = format!(

@@ -3,7 +3,9 @@
 pub mod camera;
 pub mod composite;
 pub mod extent;
+pub mod lettering;
 pub mod observer;
+pub mod overlay;
 pub mod picture;
 pub mod ray;
 pub mod samples;

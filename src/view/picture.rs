@@ -48,6 +48,17 @@ impl Picture {
         self.pixels[y * self.size[0] + x]
     }
 
+    /// The picture under another of the same size.
+    #[must_use]
+    pub fn under(&self, other: &Self) -> Self {
+        let both = self.pixels.iter().zip(other.pixels.iter());
+        let over = |(own, other): (&[f32; 4], &[f32; 4])| {
+            let through = 1.0 - other[3];
+            std::array::from_fn(|channel| other[channel] + through * own[channel])
+        };
+        Self { size: self.size, pixels: Shared::new(both.map(over).collect()) }
+    }
+
     /// The picture over a background of one colour, opaque then.
     #[must_use]
     pub fn over(&self, background: glam::Vec3) -> Self {

@@ -8,6 +8,7 @@ mod digits;
 pub mod gel;
 pub mod gradients;
 pub mod grid;
+pub mod labels;
 pub mod layer;
 pub mod painting;
 pub mod pyramid;

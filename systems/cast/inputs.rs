@@ -11,7 +11,7 @@ use crate::components::{
 use crate::light::shading::Lamps;
 use crate::light::strength::LightStrength;
 use crate::light::strength::ProjectedBy;
-use crate::polygon::face::Faces;
+use crate::polygon::face::{FaceColors, Faces};
 use crate::polygon::texture::TexturedBy;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
@@ -44,6 +44,7 @@ pub struct Inputs {
 pub struct TracedPolygons {
     pub faces: Faces,
     pub surface: Surface,
+    pub colors: Option<FaceColors>,
     pub textured: Option<TexturedBy>,
     /// The grid of the volume that they cast their shadows in.
     pub grid: Option<Grid>,
@@ -85,15 +86,17 @@ impl Inputs {
 
 /// The polygons that stay polygons, in the order of the scene.
 fn hybrid_polygons(world: &World) -> Vec<TracedPolygons> {
+    type Seen<'a> =
+        (&'a Order, &'a Faces, &'a Surface, Option<&'a FaceColors>, Option<&'a TexturedBy>);
     let volumes = volumes(world);
-    let mut query =
-        world.query::<(&Order, &Faces, &Surface, Option<&TexturedBy>)>().without::<&Voxelize>();
+    let mut query = world.query::<Seen<'_>>().without::<&Voxelize>();
     let mut polygons: Vec<_> = query.iter().collect();
     polygons.sort_by_key(|(order, ..)| **order);
-    let shown = |(_, faces, surface, textured): (_, &Faces, &Surface, Option<&TexturedBy>)| {
+    let shown = |(_, faces, surface, colors, textured): <Seen<'_> as hecs::Query>::Item<'_>| {
         TracedPolygons {
             faces: faces.clone(),
             surface: surface.clone(),
+            colors: colors.cloned(),
             textured: textured.cloned(),
             grid: around(&volumes, || faces.middle()).map(|volume| volume.grid),
         }

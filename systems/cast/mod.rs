@@ -34,9 +34,10 @@ use std::sync::Arc;
 use fearless_simd::Level;
 use hecs::{Entity, World};
 
-use crate::components::{DepthCue, Sampling, Skip, View};
+use crate::components::{DepthCue, Sampling, Skip, Surface, View};
 use crate::error::Error;
 use crate::light::strength::LightStrength;
+use crate::polygon::face::FaceColors;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
@@ -156,13 +157,16 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Erro
 fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -> Polygons {
     let lamps = &inputs.lamps;
     let projected = inputs.polygons.iter().flat_map(|traced| {
-        traced.faces.0.iter().filter_map(|face| {
+        traced.faces.0.iter().enumerate().filter_map(|(at, face)| {
             let texture =
                 traced.textured.as_ref().and_then(|by| FaceTexture::new(by, face, camera));
             let offsets = traced.grid.as_ref().map_or_else(Vec::new, |grid| {
                 receiving::shadow_offsets(face.normal, lamps, &inputs.strengths, grid)
             });
-            let looks = Appearance::new(&traced.surface, face.normal, lamps, offsets, texture);
+            let own = FaceColors::of(traced.colors.as_ref(), at);
+            let color = own.unwrap_or(traced.surface.color);
+            let surface = Surface { color, ..traced.surface };
+            let looks = Appearance::new(&surface, face.normal, lamps, offsets, texture);
             ProjectedFace::new(face, camera, looks)
         })
     });

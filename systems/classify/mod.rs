@@ -11,6 +11,7 @@ use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::gradients::Gradients;
 use crate::volume::grid::{Grid, Scalar, Scalars};
+use crate::volume::labels::Tint;
 use crate::volume::layer::Opacity;
 use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
@@ -27,6 +28,7 @@ struct Inputs {
     classify: components::Classify,
     unit: OpacityUnit,
     clip: Option<Clip>,
+    tint: Option<Tint>,
 }
 
 impl System for Classify {
@@ -43,10 +45,11 @@ impl System for Classify {
             &'a components::Classify,
             &'a OpacityUnit,
             Option<&'a Clip>,
+            Option<&'a Tint>,
         );
         let watch = out.watch();
         let mut volumes = world.query::<Volume>().without::<&Projection>();
-        for (entity, scalars, ranges, grid, classify, unit, clip) in &mut volumes {
+        for (entity, scalars, ranges, grid, classify, unit, clip, tint) in &mut volumes {
             let inputs = Inputs {
                 scalars: scalars.clone(),
                 ranges: ranges.clone(),
@@ -54,6 +57,7 @@ impl System for Classify {
                 classify: classify.clone(),
                 unit: *unit,
                 clip: clip.cloned(),
+                tint: tint.cloned(),
             };
             out.derive(entity, inputs, |inputs| {
                 let opacity =
@@ -98,6 +102,9 @@ impl Inputs {
             if let (Left::Part, Some(cut)) = (left(place), &cut) {
                 clip_brick(cut, place, brick);
             }
+            if let Some(factors) = self.tint.as_ref().and_then(|tint| tint.factors.as_ref()) {
+                mask_brick(factors, &self.grid, place, brick);
+            }
             brick.iter().any(|&alpha| alpha > 0.0)
         });
         Opacity { voxels, nan_voxels: self.ranges.nan_voxels() }
@@ -125,6 +132,12 @@ fn fill<T: Scalar>(
         for ((alpha, value), gradient) in alphas.iter_mut().zip(values).zip(&row) {
             *alpha = classifier.opacity(value.value(), *gradient);
         }
+    }
+}
+
+fn mask_brick(factors: &[f32], grid: &Grid, place: Place, brick: &mut [f32; VOXELS]) {
+    for (at, voxel) in place.voxels() {
+        brick[at] *= factors[grid.offset(voxel)];
     }
 }
 

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use crate::components::{Color, PixelFilter, Sampling, View};
 use crate::error::Error;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::overlay::Overlay;
 use crate::view::picture::Frame;
 use crate::view::picture::Picture;
 use crate::view::samples::Samples;
@@ -23,15 +24,17 @@ pub struct Resample;
 impl System for Resample {
     type Product = Frame;
     const NAME: &'static str = "resample";
-    const READS: &'static [ProductKey] = &[ProductKey::of::<Samples>()];
+    const READS: &'static [ProductKey] =
+        &[ProductKey::of::<Samples>(), ProductKey::of::<Overlay>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Frame>) -> Result<(), Error> {
-        for (entity, view, sampling, samples) in
-            &mut world.query::<(Entity, &View, &Sampling, &Samples)>()
-        {
-            let inputs = (samples.clone(), sampling.pixel_filter, view.background);
-            out.derive(entity, inputs, |(samples, filter, background)| {
-                Ok(Frame(resample(&samples.0, *filter, *background)))
+        type Seen<'a> = (Entity, &'a View, &'a Sampling, &'a Samples, Option<&'a Overlay>);
+        for (entity, view, sampling, samples, overlay) in &mut world.query::<Seen<'_>>() {
+            let (filter, background) = (sampling.pixel_filter, view.background);
+            let inputs = (samples.clone(), filter, background, overlay.cloned());
+            out.derive(entity, inputs, |(samples, filter, background, overlay)| {
+                let picture = resample(&samples.0, *filter, *background);
+                Ok(Frame(overlay.as_ref().map_or(picture.clone(), |over| picture.under(&over.0))))
             })?;
         }
         Ok(())

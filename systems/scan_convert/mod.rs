@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::light::shading::{Lamps, Reflectance, lamps};
 use crate::polygon::coverage::REACH;
 use crate::polygon::coverage::{Ball, Covered, Flat};
-use crate::polygon::face::{Face, Faces};
+use crate::polygon::face::{Face, FaceColors, Faces};
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
 use crate::volume::bricks::{Bricks, VOXELS};
@@ -26,6 +26,8 @@ pub struct ScanConvert;
 struct Inputs {
     faces: Faces,
     surface: Surface,
+    /// Colors in place of the surface's.
+    own: Option<FaceColors>,
     /// How; its operator is not looked at, and always the default.
     voxelize: Voxelize,
     grid: Grid,
@@ -43,11 +45,18 @@ impl System for ScanConvert {
     const READS: &'static [ProductKey] = &[];
 
     fn run(world: &World, out: &mut Outbox<'_, Coverage>) -> Result<(), Error> {
+        type Stated<'a> = (
+            Entity,
+            &'a Faces,
+            &'a Surface,
+            Option<&'a FaceColors>,
+            Option<&'a Voxelize>,
+            Option<&'a Name>,
+        );
         let (volumes, shadows) = (volumes(world), casts_shadows(world));
         let ambient_apart = observer::is_cued(world);
-        let mut query =
-            world.query::<(Entity, &Faces, &Surface, Option<&Voxelize>, Option<&Name>)>();
-        for (entity, faces, surface, voxelize, name) in &mut query {
+        let mut query = world.query::<Stated<'_>>();
+        for (entity, faces, surface, own, voxelize, name) in &mut query {
             out.watch().check()?;
             let name = name.map_or("polygon", |name| &name.0);
             if voxelize.is_none() && !shadows {
@@ -68,10 +77,19 @@ impl System for ScanConvert {
                 matte: Matte::default(),
                 calibrated: voxelize.is_none_or(|voxelize| voxelize.calibrated),
             };
-            let (faces, surface) = (faces.clone(), surface.clone());
+            let (faces, surface, own) = (faces.clone(), surface.clone(), own.cloned());
             let (grid, unit) = (volume.grid, volume.unit);
-            let inputs =
-                Inputs { faces, surface, voxelize, grid, unit, lamps, ambient_apart, colorless };
+            let inputs = Inputs {
+                faces,
+                surface,
+                own,
+                voxelize,
+                grid,
+                unit,
+                lamps,
+                ambient_apart,
+                colorless,
+            };
             out.derive(entity, inputs, |inputs| {
                 let _inside = tracing::trace_span!("polygon", name).entered();
                 inputs.convert().map_err(|problem| Error::entity(name, problem))
@@ -135,22 +153,29 @@ impl Inputs {
             return LitColors { base: nothing, shadowed: Vec::new(), ambient: None };
         }
         let how = Reflectance::from(&self.surface);
-        let color = self.surface.color.0;
-        let ambient = color * how.ambient;
-        let bricks = |of_face: &(dyn Fn(Vec3) -> Vec3 + Sync)| {
-            let shade = |face: &Face| of_face(face.normal.as_vec3());
-            covered.colors(&self.faces.0.iter().map(shade).collect::<Vec<_>>())
+        let bricks = |of_face: &(dyn Fn(Vec3, Vec3) -> Vec3 + Sync)| {
+            let shade = |(at, face): (usize, &Face)| {
+                let own = FaceColors::of(self.own.as_ref(), at);
+                of_face(face.normal.as_vec3(), own.unwrap_or(self.surface.color).0)
+            };
+            covered.colors(&self.faces.0.iter().enumerate().map(shade).collect::<Vec<_>>())
         };
-        let in_base = if self.ambient_apart { Vec3::ZERO } else { ambient };
+        let in_base = if self.ambient_apart { 0.0 } else { how.ambient };
         let plain = &self.lamps.plain;
-        let base = bricks(&|normal| {
-            plain.iter().fold(in_base, |sum, lamp| sum + lamp.reflected(color, normal, &how))
+        let base = bricks(&|normal, color| {
+            plain
+                .iter()
+                .fold(color * in_base, |sum, lamp| sum + lamp.reflected(color, normal, &how))
         });
         let shadowed = &self.lamps.shadowed;
         let shadowed = shadowed
             .iter()
-            .map(|(_, lamp)| bricks(&|normal| lamp.reflected(color, normal, &how)))
+            .map(|(_, lamp)| bricks(&|normal, color| lamp.reflected(color, normal, &how)))
             .collect();
-        LitColors { base, shadowed, ambient: self.ambient_apart.then(|| bricks(&|_| ambient)) }
+        LitColors {
+            base,
+            shadowed,
+            ambient: self.ambient_apart.then(|| bricks(&|_, color| color * how.ambient)),
+        }
     }
 }

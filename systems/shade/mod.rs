@@ -13,6 +13,7 @@ use crate::volume::bricks::{Bricks, EDGE};
 use crate::volume::classification::Classifier;
 use crate::volume::gradients::Gradients;
 use crate::volume::grid::{Grid, Scalar, Scalars};
+use crate::volume::labels::Tint;
 use crate::volume::layer::{LitColors, Opacity};
 use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
 use crate::with_scalars;
@@ -27,6 +28,7 @@ struct Inputs {
     opacity: Opacity,
     classify: Classify,
     material: Material,
+    tint: Option<Tint>,
     unit: OpacityUnit,
     lamps: Lamps,
     /// Whether ambient light is kept apart, for a depth cue.
@@ -47,10 +49,11 @@ impl System for Shade {
             &'a Classify,
             &'a OpacityUnit,
             Option<&'a Material>,
+            Option<&'a Tint>,
         );
         let watch = out.watch();
         let apart = observer::is_cued(world);
-        for (entity, scalars, grid, opacity, classify, unit, material) in
+        for (entity, scalars, grid, opacity, classify, unit, material, tint) in
             &mut world.query::<Volume>()
         {
             let material = material.cloned().unwrap_or_default();
@@ -62,6 +65,7 @@ impl System for Shade {
                 unit: *unit,
                 lamps: lamps(world, &Reflectance::from(&material)),
                 material,
+                tint: tint.cloned(),
                 apart,
             };
             out.derive(entity, inputs, |inputs| {
@@ -126,12 +130,19 @@ impl Inputs {
                 }
                 let [y, z] = [y + row % EDGE, z + row / EDGE];
                 gradients.row(values, [x, y, z], &mut slopes[..n]);
-                let values = &values[(z * ny + y) * nx + x..][..n];
+                let first = (z * ny + y) * nx + x;
+                let values = &values[first..][..n];
                 let made = made[row * EDGE..][..n].iter_mut().zip(alpha);
-                for ((made, _), (value, slope)) in
-                    made.zip(values.iter().zip(&slopes)).filter(|((_, alpha), _)| **alpha > 0.0)
+                for (at, ((made, _), (value, slope))) in made
+                    .zip(values.iter().zip(&slopes))
+                    .enumerate()
+                    .filter(|(_, ((_, alpha), _))| **alpha > 0.0)
                 {
-                    let color = classifier.color(value.value(), *slope);
+                    let mut color = classifier.color(value.value(), *slope);
+                    if let Some(tint) = &self.tint {
+                        let tint = tint.colors[first + at];
+                        color = color.lerp(tint.truncate(), tint.w);
+                    }
                     *made = light(color, normal(*slope)).to_array();
                 }
             }

@@ -3,6 +3,8 @@
 mod agreement;
 mod composing;
 mod cues;
+mod furnished;
+mod labeled;
 mod maps;
 mod operators;
 mod projecting;

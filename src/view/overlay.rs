@@ -1,0 +1,82 @@
+//! What is drawn over a picture at the picture's resolution: rectangles and letters, in linear light.
+
+use glam::{Vec3, Vec4};
+
+use super::lettering::Line;
+use super::picture::Picture;
+use crate::schedule::Product;
+use crate::shared::Shared;
+
+/// What lies over a view's picture, of its size; made where a scene states furniture that is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Overlay(pub Picture);
+
+impl Product for Overlay {}
+
+/// Something to draw on, clear at first.
+pub struct Canvas {
+    size: [usize; 2],
+    pixels: Vec<[f32; 4]>,
+}
+
+impl Canvas {
+    /// A clear canvas of so many pixels across and down.
+    #[must_use]
+    pub fn new(size: [usize; 2]) -> Self {
+        Self { size, pixels: vec![[0.0; 4]; size[0] * size[1]] }
+    }
+
+    /// What was drawn.
+    #[must_use]
+    pub fn picture(self) -> Picture {
+        Picture { size: self.size, pixels: Shared::new(self.pixels) }
+    }
+
+    /// Puts a color (linear) over the part `covered` of a pixel; nothing beside the canvas.
+    fn put(&mut self, [x, y]: [i64; 2], color: Vec3, covered: f32) {
+        let inside = |n: i64, size: usize| usize::try_from(n).ok().filter(|n| *n < size);
+        let (Some(x), Some(y)) = (inside(x, self.size[0]), inside(y, self.size[1])) else { return };
+        let pixel = &mut self.pixels[y * self.size[0] + x];
+        let over = (color * covered).extend(covered);
+        *pixel = (over + Vec4::from_array(*pixel) * (1.0 - covered)).to_array();
+    }
+
+    /// A rectangle between two corners, pixels; its edges cover the parts of pixels that they cross.
+    pub fn rectangle(&mut self, low: [f32; 2], high: [f32; 2], color: Vec3) {
+        let covered = |n: i64, low: f32, high: f32| {
+            (high.min(n as f32 + 1.0) - low.max(n as f32)).clamp(0.0, 1.0)
+        };
+        let range = |axis: usize| {
+            let last = self.size[axis] as f32;
+            low[axis].clamp(0.0, last).floor() as i64..high[axis].clamp(0.0, last).ceil() as i64
+        };
+        let (across, down) = (range(0), range(1));
+        for y in down {
+            for x in across.clone() {
+                let part = covered(x, low[0], high[0]) * covered(y, low[1], high[1]);
+                self.put([x, y], color, part);
+            }
+        }
+    }
+
+    /// A line of text with its top left corner at a place, pixels.
+    pub fn text(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
+        line.draw(at, |pixel, covered| self.put(pixel, color, covered));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rectangle_covers_its_area_and_nothing_beside_the_canvas() {
+        let mut canvas = Canvas::new([8, 6]);
+        canvas.rectangle([1.25, 2.5], [4.75, 4.0], Vec3::X);
+        canvas.rectangle([7.5, -3.0], [90.0, 0.5], Vec3::Y);
+        let picture = canvas.picture();
+        let sum = |channel: usize| picture.pixels.iter().map(|p| p[channel]).sum::<f32>();
+        assert!((sum(0) - 3.5 * 1.5).abs() < 1e-5 && (sum(1) - 0.25).abs() < 1e-5);
+        assert_eq!((picture.pixel(2, 3), picture.pixel(1, 3)[3]), ([1.0, 0.0, 0.0, 1.0], 0.75));
+    }
+}

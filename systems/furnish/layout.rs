@@ -1,0 +1,170 @@
+//! Where furniture stands in a picture: each corner is filled from its edge towards the middle.
+
+use glam::Vec2;
+
+use crate::components::{Callout, Color, Corner, Legend, ScaleBar, Title};
+use crate::view::lettering::{Line, set};
+use crate::view::overlay::Canvas;
+
+/// A picture being furnished.
+pub struct Layout {
+    /// What is drawn on.
+    pub canvas: Canvas,
+    size: [f32; 2],
+    /// How far each corner is filled, pixels.
+    filled: [f32; 4],
+}
+
+impl Layout {
+    /// An empty picture of so many pixels across and down.
+    pub fn new(size: [usize; 2]) -> Self {
+        let canvas = Canvas::new(size);
+        let size = size.map(|n| n as f32);
+        let margin = size[1] * 0.03;
+        Self { canvas, size, filled: [margin; 4] }
+    }
+
+    /// The height of letters, as stated or else a part of the picture's height.
+    fn letters(&self, stated: Option<f32>, part: f32) -> f32 {
+        stated.unwrap_or((self.size[1] * part).clamp(8.0, 400.0))
+    }
+
+    /// The place for something of `width` by `height` pixels in a corner: its top left. The place is then taken.
+    fn place(&mut self, corner: Corner, [width, height]: [f32; 2]) -> [f32; 2] {
+        let filled = &mut self.filled[corner as usize];
+        let margin = self.size[1] * 0.03;
+        let y = match corner {
+            Corner::TopLeft | Corner::TopRight => *filled,
+            Corner::BottomLeft | Corner::BottomRight => self.size[1] - *filled - height,
+        };
+        *filled += height + margin / 2.0;
+        let x = match corner {
+            Corner::TopLeft | Corner::BottomLeft => margin,
+            Corner::TopRight | Corner::BottomRight => self.size[0] - margin - width,
+        };
+        [x.round(), y.round()]
+    }
+
+    /// A title in the middle of the top; what else stands at the top stands below it.
+    pub fn title(&mut self, title: &Title) {
+        let line = set(&title.text, self.letters(title.letters_pixels, 0.05));
+        let filled = self.filled[0].max(self.filled[1]);
+        let at = [((self.size[0] - line.width) / 2.0).round(), filled.round()];
+        self.canvas.text(&line, at, title.color.0);
+        self.filled[0] = filled + line.height * 1.2;
+        self.filled[1] = self.filled[0];
+    }
+
+    /// A bar with its length over it; a pixel is `pixel` world units wide.
+    pub fn scale_bar(&mut self, bar: &ScaleBar, pixel: f64) {
+        let length =
+            bar.length_mm.unwrap_or_else(|| roundest(f64::from(self.size[0]) * pixel / 4.0));
+        let pixels = (length / pixel) as f32;
+        let letters = self.letters(bar.letters_pixels, 1.0 / 30.0);
+        let line = set(&format!("{length} {}", bar.unit), letters);
+        let (width, thick) = (line.width.max(pixels), (letters / 5.0).max(2.0).round());
+        let [x, y] = self.place(bar.corner, [width, line.height * 1.1 + thick]);
+        let color = bar.color.0;
+        self.canvas.text(&line, [x + ((width - line.width) / 2.0).round(), y], color);
+        let (left, top) = (x + (width - pixels) / 2.0, (y + line.height * 1.1).round());
+        self.canvas.rectangle([left, top], [left + pixels, top + thick], color);
+    }
+
+    /// A bar of colors with the values at its ends, and a line for each entry.
+    pub fn legend(&mut self, legend: &Legend, colors: &[(f32, Color)]) {
+        let letters = self.letters(legend.letters_pixels, 1.0 / 30.0);
+        if let (Some(first), Some(last)) = (colors.first(), colors.last()) {
+            self.color_bar(legend, letters, (first.0, last.0), colors);
+        }
+        let lines: Vec<Line> = legend.entries.iter().map(|e| set(&e.text, letters)).collect();
+        if lines.is_empty() {
+            return;
+        }
+        let widest = lines.iter().map(|line| line.width).fold(0.0, f32::max);
+        let (pitch, patch) = (letters * 1.35, letters * 0.8);
+        let [x, y] =
+            self.place(legend.corner, [widest + 1.4 * letters, pitch * lines.len() as f32]);
+        for (at, (line, entry)) in lines.iter().zip(&legend.entries).enumerate() {
+            let y = (y + pitch * at as f32).round();
+            let top = y + (line.height - patch) / 2.0;
+            self.canvas.rectangle([x, top], [x + patch, top + patch], entry.color.0);
+            self.canvas.text(line, [x + 1.4 * letters, y], legend.color.0);
+        }
+    }
+
+    fn color_bar(
+        &mut self,
+        legend: &Legend,
+        letters: f32,
+        (low, high): (f32, f32),
+        colors: &[(f32, Color)],
+    ) {
+        let ends = [high, low].map(|value| set(&rounded(value, high - low), letters));
+        let (height, thick) = (letters * 7.0, letters * 0.9);
+        let widest = ends[0].width.max(ends[1].width);
+        let [x, y] = self.place(legend.corner, [thick + letters * 0.5 + widest, height]);
+        for row in 0..height as usize {
+            let value = high + (low - high) * ((row as f32 + 0.5) / height);
+            let top = y + row as f32;
+            self.canvas.rectangle([x, top], [x + thick, top + 1.0], at(colors, value).0);
+        }
+        let beside = x + thick + letters * 0.5;
+        self.canvas.text(&ends[0], [beside, y], legend.color.0);
+        self.canvas.text(&ends[1], [beside, y + height - ends[1].height], legend.color.0);
+    }
+
+    /// The text of a callout beside the window position where its line begins, on the side away from the line.
+    pub fn callout(&mut self, callout: &Callout, is_left: bool, from: Vec2) {
+        let letters = self.letters(callout.letters_pixels, 1.0 / 30.0);
+        let line = set(&callout.text, letters);
+        let gap = letters * 0.3;
+        let x = if is_left { from.x - gap - line.width } else { from.x + gap };
+        let at = [x.round(), (from.y - line.height / 2.0).round()];
+        self.canvas.text(&line, at, callout.color.0);
+    }
+}
+
+/// The greatest of 1, 2 or 5 times a power of ten that is not above `most`.
+fn roundest(most: f64) -> f64 {
+    let power = 10.0_f64.powi(most.log10().floor() as i32);
+    let times = [5.0, 2.0, 1.0].into_iter().find(|times| times * power <= most).unwrap_or(1.0);
+    // As it is written, and not as powers round.
+    format!("{:.0e}", times * power).parse().unwrap_or(power)
+}
+
+/// A value in digits enough to tell apart what lies `span` away.
+fn rounded(value: f32, span: f32) -> String {
+    let digits = (2.0 - span.abs().max(1e-30).log10().floor()).clamp(0.0, 8.0);
+    let text = format!("{value:.*}", digits as usize);
+    let text =
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    text.replace('-', "−")
+}
+
+/// The color of a value among rising ones, linear in between.
+fn at(colors: &[(f32, Color)], value: f32) -> Color {
+    let behind = colors.partition_point(|(at, _)| *at < value).clamp(1, colors.len() - 1);
+    let ((low, first), (high, last)) = (colors[behind - 1], colors[behind]);
+    let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    Color(first.0.lerp(last.0, if part.is_nan() { 0.0 } else { part }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_are_of_round_lengths_and_values_are_written_short() {
+        assert_eq!([0.0731, 4.9, 50.0, 999.0].map(roundest), [0.05, 2.0, 50.0, 500.0]);
+        assert_eq!([rounded(-160.0, 400.0), rounded(0.25, 0.5)], ["−160", "0.25"]);
+    }
+
+    #[test]
+    fn what_stands_in_one_corner_stands_apart() {
+        let mut layout = Layout::new([200, 100]);
+        let first = layout.place(Corner::BottomRight, [50.0, 20.0]);
+        let second = layout.place(Corner::BottomRight, [30.0, 10.0]);
+        assert_eq!(first, [147.0, 77.0]);
+        assert!(second[1] + 10.0 < first[1] && second[0] == 167.0);
+    }
+}
