@@ -86,12 +86,15 @@
 //! `cast` owns the rays of a view. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
 //! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that a polygon's edge is
 //! seen. Rays go in packets: tiles of four by four neighbours on the grid in use. `march` takes a packet through slabs
-//! ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations 2a
-//! and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the whole
-//! packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the widest
-//! instructions that the machine has. `several` joins gels that overlap, `texture` filters what is mapped onto a polygon over
-//! the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample` integrates the
-//! sample array to the picture, and [`formats::pictures`] writes it.
+//! ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
+//! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
+//! whole packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the
+//! widest instructions that the machine has. `several` joins gels that overlap, `texture` filters what is mapped onto a
+//! polygon over the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample`
+//! ([`view::resampling`]) integrates the sample array to the picture, and [`formats::pictures`] writes it.
+//!
+//! For whoever looks on ([`view::viewer`]) `preview` hands out what is known so far: a few coarse pictures first, then each
+//! level of the refinement, and rows of a level that is not done; the rays of the final picture are the same with and without.
 //!
 //! # The walk of a sequence
 //!

@@ -16,6 +16,8 @@ mod limits;
 mod misuse;
 #[path = "program/planned.rs"]
 mod planned;
+#[path = "program/progressive.rs"]
+mod progressive;
 #[path = "program/render.rs"]
 mod render;
 #[path = "program/sentences.rs"]

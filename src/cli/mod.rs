@@ -29,6 +29,7 @@ mod number;
 mod outputs;
 mod plan;
 mod progress;
+mod progressive;
 mod raw_header;
 mod render;
 mod results;
@@ -82,6 +83,8 @@ enum Verb {
     Render {
         /// A scene file, the name of an embedded scene, or a volume [default: head]
         scene: Option<OsString>,
+        #[command(flatten)]
+        progressive: progressive::Progressive,
     },
     /// Renders a sequence: frames, or an animation in one file
     #[command(after_help = animate::EXAMPLES)]
@@ -187,7 +190,7 @@ pub fn main(arguments: Vec<OsString>) -> ExitCode {
 fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
     flags.set_threads()?;
     match verb {
-        Verb::Render { scene } => render::run(scene.as_deref(), flags),
+        Verb::Render { scene, progressive } => render::run(scene.as_deref(), &progressive, flags),
         Verb::Animate { scene, motion } => animate::run(scene.as_deref(), &motion, flags),
         Verb::Assemble { frames, fps } => assemble::run(&frames, fps, flags),
         Verb::Plan { scene } => plan::run(scene.as_deref(), flags),

@@ -19,8 +19,9 @@ use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::memory::{self, Allowed};
-use super::noted::{VERSION, notes};
+use super::noted::{VERSION, notes, telling_notes};
 use super::progress::Progress;
+use super::progressive::Progressive;
 use super::results::Results;
 use super::sentence::{DATA, sentence};
 use super::stats::{Bytes, Counted, Seconds, Stats};
@@ -35,6 +36,7 @@ Examples:
   gelray render scan.nrrd -o bone.png --iso 300 --save-scene bone.toml
   gelray render scene.toml -o out.exr --data ~/scans --exact
   gelray render -o head.png --set head.classify.iso.0.value=1200 --set observer.view.azimuth=60
+  gelray render figure_09 -o 9.png --size 2000x2000 --progressive so_far --every 500ms
   gelray render -o head.png --rays rays.png --stats head.json --trace spans.json";
 
 /// Flags that have a use here.
@@ -53,7 +55,7 @@ pub const TAKES: &[&str] = &[
 ];
 
 /// Renders the scene and writes what was asked for.
-pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
+pub fn run(scene: Option<&OsStr>, progressive: &Progressive, flags: &Flags) -> Result<(), Failure> {
     let start = Instant::now();
     flags.refuse_others("render", TAKES)?;
     let out = flags.output.as_deref().ok_or_else(|| {
@@ -65,13 +67,20 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     outputs::check_picture(out)?;
     let source = contact::open(scene, flags)?;
     outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
+    progressive.check()?;
     let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
     let interrupt = Interrupt::listen();
     let mut scene = load(&source, flags)?;
     let loaded = start.elapsed().as_secs_f64();
-    let ran = run_systems(&mut scene.world, &interrupt, flags)?;
+    let telling = telling_notes(&scene.name, &scene.resolved, flags, None);
+    let looking = progressive.look(&mut scene, telling)?;
+    let ran = run_systems(&mut scene.world, &interrupt, flags);
+    // Pictures on their way are written before anything else is said.
+    let last = looking.map(|looking| looking.end(&mut scene.world)).transpose();
+    let (ran, last) = (ran?, last?);
     let made = Rendered::of(&scene.world)?;
-    let (mut results, encode) = encoded(out, &scene, &made, flags)?;
+    let outs = [Some(out), last.as_deref()];
+    let (mut results, encode) = encoded(outs, &scene, &made, flags)?;
     if let Some(path) = &flags.save_scene {
         results.text(path, &contact::saved(path, &scene))?;
     }
@@ -93,7 +102,7 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
 
 /// The picture and the map of its rays as their files hold them, and the seconds that took.
 fn encoded(
-    out: &Path,
+    outs: [Option<&Path>; 2],
     scene: &Scene,
     made: &Rendered,
     flags: &Flags,
@@ -101,7 +110,10 @@ fn encoded(
     let _span = tracing::info_span!("encode").entered();
     let start = Instant::now();
     let mut results = Results::default();
-    results.picture(out, &made.frame.0, &notes(scene, &made.counts, flags, None)?)?;
+    let notes = notes(scene, &made.counts, flags, None)?;
+    for out in outs.into_iter().flatten() {
+        results.picture(out, &made.frame.0, &notes)?;
+    }
     if let Some(path) = &flags.rays {
         let array = &made.samples.0;
         let size = array.layout.size.map(|n| n * POSITIONS);

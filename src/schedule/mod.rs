@@ -5,6 +5,7 @@
 //! inputs is kept, and only the rest is made.
 
 mod outbox;
+mod pace;
 mod product;
 mod watch;
 
@@ -14,6 +15,7 @@ use hecs::{CommandBuffer, Entity, World};
 
 use crate::error::Error;
 pub use outbox::Outbox;
+pub use pace::Pace;
 pub use product::{Made, Product, ProductKey, Restore};
 pub use watch::Watch;
 

@@ -8,5 +8,7 @@ pub mod observer;
 pub mod overlay;
 pub mod picture;
 pub mod ray;
+pub mod resampling;
 pub mod samples;
+pub mod viewer;
 pub mod walk;

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::band::{Band, cut};
 use super::lanes::{LANES, Packet, SIDE, each};
 use super::level::Level;
+use super::preview::Preview;
 use super::targets::{Caster, Outlines, RayColors};
 use crate::components::Sampling;
 use crate::error::Error;
@@ -19,16 +20,12 @@ use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray}
 
 /// The sample array while it is refined.
 pub struct Refinement<'a, C> {
-    layout: Layout,
     sampling: &'a Sampling,
     outlines: Option<&'a Outlines>,
     caster: &'a C,
-    full: Colors,
+    array: SampleArray,
     /// C_A and C_G, where polygons may ask for supersampling.
     edges: Option<[Colors; 2]>,
-    opened: Vec<u32>,
-    cast: Vec<u16>,
-    counts: Counts,
 }
 
 impl<'a, C: Caster> Refinement<'a, C> {
@@ -43,33 +40,38 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let below_a_pixel = polygons && sampling.finest < POSITIONS as u32;
         let supersampled = below_a_pixel && sampling.coarsest > sampling.finest;
         let blocks = layout.blocks().iter().product();
-        Self {
+        let array = SampleArray {
             layout,
-            sampling,
-            outlines,
-            caster,
-            full: Colors::new(&layout),
-            edges: supersampled.then(|| [Colors::new(&layout), Colors::new(&layout)]),
+            colors: Colors::new(&layout),
             opened: vec![NONE; blocks],
             cast: vec![0; blocks],
+            splits: vec![0; blocks],
             counts: Counts::default(),
-        }
+        };
+        let edges = supersampled.then(|| [Colors::new(&layout), Colors::new(&layout)]);
+        Self { sampling, outlines, caster, array, edges }
     }
 
-    /// Casts, splits and casts again, from the coarsest regions to the finest.
-    pub fn refine(mut self, watch: &Watch) -> Result<SampleArray, Error> {
-        let finest = self.sampling.finest as usize;
-        let mut splits = vec![0_u8; self.cast.len()];
-        if self.layout.coarsest < POSITIONS {
-            splits.fill(if self.layout.coarsest == 1 { 0b1_1111 } else { 1 });
+    /// Casts, splits and casts again, from the coarsest regions to the finest; shows what is known meanwhile to who looks on.
+    pub fn refine(
+        mut self,
+        watch: &Watch,
+        mut preview: Option<&mut Preview<'_>>,
+    ) -> Result<SampleArray, Error> {
+        let (finest, layout) = (self.sampling.finest as usize, self.array.layout);
+        if layout.coarsest < POSITIONS {
+            self.array.splits.fill(if layout.coarsest == 1 { 0b1_1111 } else { 1 });
             self.open(|_, _| true);
         }
-        self.cast_where(self.layout.coarsest, |_, _| true, watch)?;
+        self.cast_where(layout.coarsest, |_, _| true, watch, preview.as_deref())?;
         let mut parent: Option<Level> = None;
-        let mut side = self.layout.coarsest;
+        let mut side = layout.coarsest;
         while side > finest && (side > POSITIONS || self.edges.is_some()) {
+            if let Some(preview) = &mut preview {
+                preview.level(&self.array);
+            }
             let level = self.decide(side, parent.as_ref());
-            level.note(&mut splits, self.layout.blocks()[0]);
+            level.note(&mut self.array.splits, layout.blocks()[0]);
             if side == POSITIONS {
                 // The new positions on a region's right and lower edges are its neighbours'.
                 self.open(|x, y| {
@@ -78,33 +80,33 @@ impl<'a, C: Caster> Refinement<'a, C> {
                         || (y > 0 && level.split(x, y - 1))
                 });
             }
-            self.cast_where(side / 2, |a, b| level.asks(a, b), watch)?;
+            self.cast_where(side / 2, |a, b| level.asks(a, b), watch, preview.as_deref())?;
             parent = Some(level);
             side /= 2;
         }
-        let Self { layout, full, opened, cast, counts, .. } = self;
-        Ok(SampleArray { layout, colors: full, opened, cast, splits, counts })
+        Ok(self.array)
     }
 
     /// Opens the blocks that are to have positions of their own.
     fn open(&mut self, wanted: impl Fn(usize, usize) -> bool) {
-        let across = self.layout.blocks()[0];
+        let across = self.array.layout.blocks()[0];
         let mut count = 0;
-        for (at, opened) in self.opened.iter_mut().enumerate() {
+        for (at, opened) in self.array.opened.iter_mut().enumerate() {
             if wanted(at % across, at / across) {
                 *opened = count;
                 count += 1;
             }
         }
-        for colors in std::iter::once(&mut self.full).chain(self.edges.iter_mut().flatten()) {
+        for colors in std::iter::once(&mut self.array.colors).chain(self.edges.iter_mut().flatten())
+        {
             colors.fine = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
         }
     }
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
     fn decide(&self, side: usize, parent: Option<&Level>) -> Level {
-        let mut level =
-            Level::new(self.layout.regions.map(|n| n * self.layout.coarsest / side), side);
+        let layout = &self.array.layout;
+        let mut level = Level::new(layout.regions.map(|n| n * layout.coarsest / side), side);
         let across = level.across;
         let rows = level.split.par_chunks_mut(across).zip(level.edges.par_chunks_mut(across));
         rows.enumerate().for_each(|(y, (split, edges))| {
@@ -130,42 +132,65 @@ impl<'a, C: Caster> Refinement<'a, C> {
 
     /// Whether the corners of a region of more than a pixel differ in C by more than is tolerated.
     fn differs(&self, i: usize, j: usize, side: usize) -> bool {
-        side > POSITIONS && self.range(&self.full, i, j, side) > self.sampling.tolerance
+        side > POSITIONS && self.range(&self.array.colors, i, j, side) > self.sampling.tolerance
     }
 
     /// The greatest range of any channel over the corners of a region.
     fn range(&self, colors: &Colors, i: usize, j: usize, side: usize) -> f32 {
         let corners = [(i, j), (i + side, j), (i, j + side), (i + side, j + side)];
-        range(corners.map(|(i, j)| colors.value(&self.layout, &self.opened, i, j)))
+        let SampleArray { layout, opened, .. } = &self.array;
+        range(corners.map(|(i, j)| colors.value(layout, opened, i, j)))
     }
 
-    /// Casts a ray at every position of the lattice of `step` positions that is `wanted`, band by band.
+    /// Casts a ray at every position of the lattice of `step` positions that is `wanted`, band by band; for who looks on, some
+    /// bands after the other.
     fn cast_where(
         &mut self,
         step: usize,
         wanted: impl Fn(usize, usize) -> bool + Sync,
         watch: &Watch,
+        preview: Option<&Preview<'_>>,
     ) -> Result<(), Error> {
-        let (layout, caster) = (self.layout, self.caster);
-        let colors = std::iter::once(&mut self.full).chain(self.edges.iter_mut().flatten());
-        let mut bands = cut(&layout, step, colors.collect(), &self.opened, &mut self.cast);
-        watch.expect(bands.len() as u64);
+        let (layout, caster) = (self.array.layout, self.caster);
+        let at_once = preview.map_or(usize::MAX, |_| 2 * rayon::current_num_threads());
         let span = tracing::Span::current();
-        let counts: Vec<Counts> = bands
-            .par_iter_mut()
-            .map(|band| {
-                let _inside = span.enter();
-                let _rows = tracing::trace_span!("band", number = band.number).entered();
-                watch.check()?;
-                cast_band(band, &layout, step, &wanted, caster);
-                watch.advance();
-                Ok(band.counts)
-            })
-            .collect::<Result<_, Error>>()?;
-        for counts in counts {
-            self.counts += counts;
+        let mut done = 0;
+        loop {
+            let SampleArray { colors, opened, cast, counts, .. } = &mut self.array;
+            let colors = std::iter::once(colors).chain(self.edges.iter_mut().flatten());
+            let mut bands = cut(&layout, step, colors.collect(), opened, cast);
+            if done == 0 {
+                watch.expect(bands.len() as u64);
+            }
+            let mut rows = 0;
+            for bands in bands[done..].chunks_mut(at_once) {
+                let counted: Vec<Counts> = bands
+                    .par_iter_mut()
+                    .map(|band| {
+                        let _inside = span.enter();
+                        let _rows = tracing::trace_span!("band", number = band.number).entered();
+                        watch.check()?;
+                        cast_band(band, &layout, step, &wanted, caster);
+                        watch.advance();
+                        Ok(band.counts)
+                    })
+                    .collect::<Result<_, Error>>()?;
+                for counted in counted {
+                    *counts += counted;
+                }
+                done += bands.len();
+                rows = bands.last().map_or(rows, Band::bottom);
+                if preview.is_some_and(Preview::is_due) {
+                    break;
+                }
+            }
+            if done >= bands.len() {
+                return Ok(());
+            }
+            if let Some(preview) = preview {
+                preview.rows(&self.array, rows);
+            }
         }
-        Ok(())
     }
 }
 

@@ -96,6 +96,11 @@ impl Band<'_> {
         }
     }
 
+    /// One past its last row of positions.
+    pub fn bottom(&self) -> usize {
+        self.bottom
+    }
+
     fn is_open(&self, layout: &Layout, i: usize, j: usize) -> bool {
         self.opened[layout.place(i, j - self.top).1] != NONE
     }

@@ -19,6 +19,7 @@ mod march;
 mod media;
 mod medium;
 mod polygons;
+mod preview;
 mod projected;
 mod projection;
 mod receiving;
@@ -27,7 +28,6 @@ mod shaft;
 mod sought;
 mod targets;
 mod texture;
-mod weight;
 
 use std::sync::Arc;
 
@@ -41,7 +41,8 @@ use crate::polygon::face::FaceColors;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
-use crate::view::samples::{Layout, Samples};
+use crate::view::samples::{Layout, SampleArray, Samples};
+use crate::view::viewer::Viewer;
 use crate::view::walk::Walk;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
 use crate::volume::pyramid::Pyramid;
@@ -56,6 +57,7 @@ use march::Slabs;
 use media::{Media, Nothing};
 use medium::Medium;
 use polygons::Polygons;
+use preview::Preview;
 use projected::ProjectedFace;
 use projection::Projections;
 use several::{AnyMedium, Several};
@@ -77,22 +79,24 @@ impl System for Cast {
 
     fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
         let watch = out.watch();
-        let mut views = world.query::<(Entity, &View, &Sampling, &Extent, Option<&DepthCue>)>();
-        for (entity, view, sampling, extent, cue) in &mut views {
+        let mut views =
+            world
+                .query::<(Entity, &View, &Sampling, &Extent, (Option<&DepthCue>, Option<&Viewer>))>(
+                );
+        for (entity, view, sampling, extent, (cue, viewer)) in &mut views {
             let camera = Camera::new(view, extent);
             let inputs = Inputs::of(world, (view, sampling, *extent, cue.copied()), &camera);
-            out.derive(entity, inputs, |inputs| cast(inputs, &camera, watch))?;
+            out.derive(entity, inputs, |inputs| cast(inputs, &camera, (watch, viewer)))?;
         }
         Ok(())
     }
 
     fn plan(world: &World) -> Plan {
-        let mut views = world.query::<(Entity, &View, &Sampling, &Extent)>();
-        let bytes = |(entity, view, sampling, extent): (Entity, &View, &Sampling, &Extent)| {
-            let layout = layout(view, sampling);
-            (entity, weight::most_bytes(world, &layout, (view, sampling, extent)))
-        };
-        let makes = views.iter().map(bytes).collect();
+        let mut views = world.query::<(Entity, &View, &Sampling)>();
+        let bytes =
+            |view: &View, sampling: &Sampling| SampleArray::most_bytes(&layout(view, sampling));
+        let makes =
+            views.iter().map(|(entity, view, sampling)| (entity, bytes(view, sampling))).collect();
         Plan { makes, why: "a view is stated" }
     }
 }
@@ -113,9 +117,15 @@ fn distance(inputs: &Inputs) -> f64 {
     inputs.sampling.distance_mm.unwrap_or(smallest)
 }
 
-fn cast(inputs: &Inputs, camera: &Camera, watch: &Watch) -> Result<Samples, Error> {
+/// Whom a view's rays are cast for: who asks how far they are, and who looks on.
+type Onlookers<'a> = (&'a Watch, Option<&'a Viewer>);
+
+fn cast(inputs: &Inputs, camera: &Camera, watch: Onlookers<'_>) -> Result<Samples, Error> {
     let layout = layout(&inputs.view, &inputs.sampling);
-    let beams = Beams::new(layout);
+    // The first pictures for who looks on reach further beyond the picture's own edges.
+    let coarsest = watch.1.map_or(1, |_| preview::FIRST).max(inputs.sampling.coarsest);
+    let beams =
+        Beams::new(self::layout(&inputs.view, &Sampling { coarsest, ..inputs.sampling.clone() }));
     let cue = inputs.cue.map(|cue| {
         let near = camera.depth(inputs.extent.center()) - inputs.extent.radius();
         Cue { k1: cue.k1, k2: cue.k2, near }
@@ -253,7 +263,7 @@ impl Rays<'_> {
         inputs: &Inputs,
         layout: Layout,
         media: &M,
-        watch: &Watch,
+        (watch, viewer): Onlookers<'_>,
     ) -> Result<Samples, Error> {
         let sampling = &inputs.sampling;
         let polygons = !self.polygons.is_empty();
@@ -264,8 +274,16 @@ impl Rays<'_> {
         let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
         let caster =
             BeamCaster { polygons: faces, projections, slabs, media, three_colors: supersampled };
+        let mut preview = viewer.map(|viewer| Preview::new(viewer, &inputs.view, sampling));
+        if let Some(preview) = &mut preview {
+            for first in preview::before(sampling) {
+                let layout = self::layout(&inputs.view, &first);
+                let sketch = Refinement::new(layout, &first, polygons, None, &caster);
+                preview.level(&sketch.refine(watch, None)?);
+            }
+        }
         let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
-            .refine(watch)?;
+            .refine(watch, preview.as_mut())?;
         Ok(Samples(Arc::new(array)))
     }
 }
