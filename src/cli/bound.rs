@@ -1,5 +1,7 @@
 //! The most bytes that a scene takes, before any is taken.
 
+use gelray::components::View;
+use gelray::polygon::face::Faces;
 use gelray::schedule::{Job, Schedule};
 use hecs::World;
 
@@ -7,11 +9,20 @@ use super::failure::Failure;
 use super::flags::Flags;
 use super::{memory, stats};
 
+/// What the program takes before anything is read, with what is free between arrays.
+const PROGRAM: u64 = 12 << 20;
+
+/// What a thread takes beside: its stack, as far as it is used, and its share of what is free.
+const THREAD: u64 = 512 << 10;
+
+/// Bytes for a pixel of the picture's file, while it is made.
+const ENCODED: u64 = 16;
+
 /// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
 pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
     let taken = stats::voxels(world);
-    let needed = most_bytes(schedule, world) - taken;
-    memory::allowed(flags, taken).map_or(Ok(()), |allowed| allowed.check(needed, taken))
+    let Some(allowed) = memory::allowed(flags, taken) else { return Ok(()) };
+    allowed.check(most_bytes(schedule, world) - taken, taken)
 }
 
 /// The jobs of a schedule, in the order in which they run.
@@ -19,8 +30,25 @@ pub fn jobs(schedule: &Schedule) -> impl Iterator<Item = &Job> {
     schedule.waves().iter().flatten()
 }
 
-/// The voxels that were read, and the most that systems can make of them.
+/// What the program, voxels and polygons that were read take, and the most that is made of them.
 pub fn most_bytes(schedule: &Schedule, world: &World) -> u64 {
     let plans = jobs(schedule).map(|job| (job.plan)(world).bytes());
-    plans.fold(stats::voxels(world), u64::saturating_add)
+    let beside = program() + encoding(world) + polygons(world);
+    plans.fold(stats::voxels(world).saturating_add(beside), u64::saturating_add)
+}
+
+/// The program itself, and its threads.
+pub fn program() -> u64 {
+    PROGRAM + THREAD * rayon::current_num_threads() as u64
+}
+
+/// The file of the picture, while it is made.
+pub fn encoding(world: &World) -> u64 {
+    let pixels = |view: &View| view.size.iter().map(|n| u64::from(*n)).product::<u64>();
+    world.query::<&View>().iter().map(pixels).sum::<u64>() * ENCODED
+}
+
+/// Polygons as they were read, and as rays look for them.
+pub fn polygons(world: &World) -> u64 {
+    world.query::<&Faces>().iter().map(Faces::bytes).sum::<u64>() * 2
 }

@@ -10,7 +10,7 @@ use gelray::view::extent::Extent;
 use gelray::volume::scene_volumes::visible;
 use hecs::World;
 
-use super::bound::{check_memory, jobs, most_bytes};
+use super::bound::{self, check_memory, jobs, most_bytes};
 use super::bytes::human;
 use super::failure::Failure;
 use super::flags::Flags;
@@ -52,8 +52,16 @@ fn words(schedule: &Schedule, world: &World) -> String {
     let read = ["", "", &human(voxels), &voxels.to_string(), "voxels", "", "as they were read"];
     let total = most_bytes(schedule, world);
     let sum = ["total", "", &human(total), &total.to_string(), "", "", ""];
+    let beside = [
+        (bound::program(), "the program and its threads"),
+        (bound::polygons(world), "polygons, as they were read and as rays look for them"),
+        (bound::encoding(world), "the file of the picture, while it is made"),
+    ];
     let mut rows = vec![heading, read.map(str::to_owned)];
     rows.extend(jobs(schedule).map(|job| row(job, &(job.plan)(world), world)));
+    rows.extend(beside.into_iter().filter(|(bytes, _)| *bytes > 0).map(|(bytes, what)| {
+        ["", "", &human(bytes), &bytes.to_string(), "", "", what].map(str::to_owned)
+    }));
     rows.push(sum.map(str::to_owned));
     table(&rows, &[2, 3]) + &samples(world).unwrap_or_default()
 }

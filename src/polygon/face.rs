@@ -46,6 +46,12 @@ impl FaceColors {
 }
 
 impl Faces {
+    /// Bytes that the polygons take.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.0.iter().map(Face::bytes).sum::<usize>() as u64
+    }
+
     /// The middle of the bounding box of all vertices; `None` for no faces.
     #[must_use]
     pub fn middle(&self) -> Option<DVec3> {
@@ -55,6 +61,12 @@ impl Faces {
 }
 
 impl Face {
+    /// Bytes that it takes, with its outlines.
+    fn bytes(&self) -> usize {
+        let outline = |outline: &Vec<DVec3>| size_of_val(outline) + size_of_val(&outline[..]) + 16;
+        size_of::<Self>() + 16 + self.outlines.iter().map(outline).sum::<usize>()
+    }
+
     /// A polygon with its holes, checked: at least three vertices an outline, finite, of some area, in one plane, and simple.
     ///
     /// The error is a sentence without a subject, for the caller to put the entity's name before it.

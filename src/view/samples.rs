@@ -179,11 +179,4 @@ impl SampleArray {
             .map(|(i, j)| self.is_cast(first + i, first + j))
             .collect()
     }
-
-    /// Bytes that the array takes if all of it is written.
-    #[must_use]
-    pub fn most_bytes(layout: &Layout) -> u64 {
-        let blocks: usize = layout.blocks().iter().product();
-        blocks as u64 * (16 + POSITIONS * POSITIONS * 16 + 4 + 2 + 1) as u64
-    }
 }

@@ -49,7 +49,9 @@ pub struct Place {
 }
 
 impl Place {
-    fn new(brick: [usize; 3], size: [usize; 3]) -> Self {
+    /// A brick of a grid of `size` voxels.
+    #[must_use]
+    pub fn new(brick: [usize; 3], size: [usize; 3]) -> Self {
         let first = brick.map(|b| b * EDGE);
         let extent = std::array::from_fn(|axis| EDGE.min(size[axis] - first[axis]));
         Self { brick, first, extent }
@@ -166,6 +168,12 @@ impl<T> Bricks<T> {
         let bricks: usize = self.0.layers.iter().map(Vec::len).sum();
         (bricks * VOXELS * size_of::<T>() + self.0.table.len() * 4) as u64
     }
+}
+
+/// Bricks on each axis of a grid of `size` voxels.
+#[must_use]
+pub fn counts(size: [usize; 3]) -> [usize; 3] {
+    size.map(|n| n.div_ceil(EDGE))
 }
 
 /// The most bytes that bricks of `T` can take on a grid of `size` voxels, for a plan.

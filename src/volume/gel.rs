@@ -276,17 +276,15 @@ impl GelBricks {
     }
 }
 
-/// The most bytes that gel of `kind` can take on a grid of `size` voxels, for a plan.
+/// The most bytes of `stored` bricks of gel, and of the one of zeros.
 #[must_use]
-pub fn most_bytes(kind: TexelKind, size: [usize; 3]) -> u64 {
-    let bricks: u64 = size.iter().map(|n| n.div_ceil(CELLS) as u64).product();
+pub fn bytes_of(kind: TexelKind, stored: u64) -> u64 {
     let texel = match kind {
         TexelKind::Auto | TexelKind::F32 => 16,
         TexelKind::U16 => 8,
         TexelKind::U8 => 4,
     };
-    // And the brick of zeros.
-    (bricks + 1) * TEXELS as u64 * texel + bricks * 4
+    (stored + 1) * TEXELS as u64 * texel
 }
 
 #[cfg(test)]

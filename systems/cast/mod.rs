@@ -28,6 +28,7 @@ mod shaft;
 mod sought;
 mod targets;
 mod texture;
+mod weight;
 
 use std::sync::Arc;
 
@@ -41,7 +42,7 @@ use crate::polygon::face::FaceColors;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
-use crate::view::samples::{Layout, SampleArray, Samples};
+use crate::view::samples::{Layout, Samples};
 use crate::view::viewer::Viewer;
 use crate::view::walk::Walk;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
@@ -92,11 +93,12 @@ impl System for Cast {
     }
 
     fn plan(world: &World) -> Plan {
-        let mut views = world.query::<(Entity, &View, &Sampling)>();
-        let bytes =
-            |view: &View, sampling: &Sampling| SampleArray::most_bytes(&layout(view, sampling));
-        let makes =
-            views.iter().map(|(entity, view, sampling)| (entity, bytes(view, sampling))).collect();
+        let mut views = world.query::<(Entity, &View, &Sampling, &Extent)>();
+        let bytes = |(entity, view, sampling, extent): (Entity, &View, &Sampling, &Extent)| {
+            let layout = layout(view, sampling);
+            (entity, weight::most_bytes(world, &layout, (view, sampling, extent)))
+        };
+        let makes = views.iter().map(bytes).collect();
         Plan { makes, why: "a view is stated" }
     }
 }

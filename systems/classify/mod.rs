@@ -4,8 +4,9 @@ use hecs::{Entity, World};
 
 use crate::components::{self, Clip, Material, OpacityUnit, Projection};
 use crate::error::Error;
+use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
-use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
+use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::gradients::Gradients;
@@ -69,7 +70,7 @@ impl System for Classify {
     }
 
     fn plan(world: &World) -> Plan {
-        let bytes = |v: &SceneVolume| (v.entity, bricks::most_bytes::<f32>(v.size()));
+        let bytes = |v: &SceneVolume| (v.entity, MayHold::of(world, v).bytes::<f32>());
         let makes: Vec<_> = with_content(world, Content::Classified).iter().map(bytes).collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");

@@ -11,9 +11,10 @@ use crate::components::{CastsShadow, Clip, Light, Order, Surface, Voxelize};
 use crate::error::Error;
 use crate::polygon::coverage::{Ball, Flat};
 use crate::polygon::face::Faces;
+use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
-use crate::volume::bricks::{self, Bricks, EDGE, Place, VOXELS};
+use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, Coverage, Layer, LitColors, Opacity};
 use crate::volume::painting::Painting;
@@ -93,9 +94,10 @@ impl System for Matte {
         let cued = observer::is_cued(world);
         let shadowed = world.query::<&Light>().with::<&CastsShadow>().iter().count();
         let bytes = |volume: &SceneVolume| {
-            let colors = (1 + u64::from(cued) + shadowed as u64)
-                .saturating_mul(bricks::most_bytes::<[f32; 3]>(volume.size()));
-            colors.saturating_add(bricks::most_bytes::<f32>(volume.size()))
+            let held = MayHold::of(world, volume).with_polygons(world, volume);
+            let colors =
+                (1 + u64::from(cued) + shadowed as u64).saturating_mul(held.bytes::<[f32; 3]>());
+            colors.saturating_add(held.bytes::<f32>())
         };
         let makes = volumes.iter().map(|volume| (volume.entity, bytes(volume))).collect();
         Plan { makes, why: "a polygon carries `voxelize`" }

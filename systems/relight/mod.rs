@@ -9,11 +9,12 @@ use crate::components::{Clip, TexelKind, Voxelize};
 use crate::error::Error;
 use crate::light::shading::Lamps;
 use crate::light::strength::{LightStrength, VoxelStrength};
+use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
 use crate::volume::bricks::Bricks;
 use crate::volume::gel::Gel;
-use crate::volume::gel::{self, GelBricks};
+use crate::volume::gel::GelBricks;
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
@@ -71,7 +72,8 @@ impl System for Relight {
         let bytes = |v: &SceneVolume| {
             // Ambient light is kept apart for a depth cue; paint alone has none.
             let apart = cued && (matted || v.content != Content::Painted);
-            gel::most_bytes(texel, v.size()).saturating_mul(1 + u64::from(apart))
+            let held = MayHold::of(world, v).with_polygons(world, v);
+            held.gel_bytes(texel).saturating_mul(1 + u64::from(apart))
         };
         let makes: Vec<_> = gels(world).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {

@@ -6,9 +6,10 @@ use hecs::{Entity, World};
 use crate::components::{CastsShadow, Classify, Light, Material, OpacityUnit};
 use crate::error::Error;
 use crate::light::shading::{Lamp, Lamps, Reflectance, lamps};
+use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
-use crate::volume::bricks::{self, Bricks, EDGE};
+use crate::volume::bricks::{Bricks, EDGE};
 use crate::volume::classification::Classifier;
 use crate::volume::gradients::Gradients;
 use crate::volume::grid::{Grid, Scalar, Scalars};
@@ -80,7 +81,7 @@ impl System for Shade {
         let shadows = world.query::<(&Light, &CastsShadow)>().iter().count() as u64;
         let arrays = 1 + shadows + u64::from(observer::is_cued(world));
         let bytes =
-            |v: &SceneVolume| bricks::most_bytes::<[f32; 3]>(v.size()).saturating_mul(arrays);
+            |v: &SceneVolume| MayHold::of(world, v).bytes::<[f32; 3]>().saturating_mul(arrays);
         let makes: Vec<_> =
             with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {

@@ -65,3 +65,30 @@ fn a_plan_of_two_volumes_names_what_runs_for_which_and_bounds_what_it_takes() {
     let (runs, _, line) = row(&plan, "light_sweep");
     assert!(!runs && line.contains("casts_shadow"), "{line}");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_render_takes_no_more_than_its_plan_says_and_not_much_less() {
+    let place = Place::new();
+    let scenes = ["head", "minimal_3", "minimal_6", "shaft"];
+    println!("scene        plan MB  peak MB  ratio");
+    for scene in scenes {
+        let (_, most, _) = row(&place.done(&format!("plan {scene} -t 2 -q")).out, "total");
+        place.done(&format!("render {scene} -t 2 -q -o a.png --stats a.json"));
+        let peak = place.json("a.json")["bytes"]["peak_rss"].as_u64().unwrap();
+        let ratio = most as f64 / peak as f64;
+        println!("{scene:<12} {:7.1}  {:7.1}  {ratio:.2}", most as f64 / 1e6, peak as f64 / 1e6);
+        assert!((1.0..1.9).contains(&ratio), "{scene}: {most} planned, {peak} taken");
+    }
+}
+
+#[test]
+fn polygons_that_were_read_are_in_the_plan() {
+    let place = Place::new();
+    let triangle = "[[entity]]\npolygon = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }\n";
+    let weighed = |number: usize| {
+        place.write("many.toml", triangle.repeat(number));
+        row(&place.done("plan many.toml -q --size 9x9").out, "total").1
+    };
+    assert!(weighed(2000) > weighed(1000) + 1000 * 100);
+}
