@@ -25,7 +25,7 @@ voxelize = { matte = "over" }
 name = "m"
 mesh = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], faces = [[0, 1, 2], [0, 1, 3]] }
 surface = { opacity = 1.0 }
-textured = { texture = "grid" }
+textured = { texture = "grid", corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }
 
 [[entity]]
 name = "l"
