@@ -81,6 +81,10 @@
 //! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `lit_layer`; [`painting`] for RGBA volumes |
 //! | `pyramid` | which cells are interesting, and how far away the nearest is (§6) | [`pyramid`] |
 //!
+//! A volume that states `reconstruct = "values"` walks a shorter way: of it only `ranges` and `pyramid` are made, the bits of
+//! the latter from the values of voxels around each cell ([`seen`]), so that an edit of what is seen makes bits and a picture;
+//! `classify` runs where a light casts shadows, and `prefilter` where [`coefficients`] of a spline are asked for.
+//!
 //! # The walk of a ray
 //!
 //! `cast` owns the rays of a view. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
@@ -89,7 +93,8 @@
 //! ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
 //! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
 //! whole packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the
-//! widest instructions that the machine has. `several` joins gels that overlap, `texture` filters what is mapped onto a
+//! widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
+//! shades and shadows it there. `several` joins gels that overlap, `texture` filters what is mapped onto a
 //! polygon over the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample`
 //! ([`view::resampling`]) integrates the sample array to the picture, and [`formats::pictures`] writes it.
 //!
@@ -125,6 +130,15 @@
 //!   all the room there is.
 //! - **Opacity is per unit of thickness.** A voxel's opacity is that of a slab one opacity unit thick; a sample stands for
 //!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture.
+//! - **Values may be interpolated in place of colors** (`reconstruct = "values"`, the better reconstruction of §8): scalars are
+//!   reconstructed by the view's `filter` and classified and shaded where they are sampled, by gradients of the same filter,
+//!   so that a picture which magnifies voxels stays sharp. A clip is then cut exactly, within the slab that it crosses.
+//!   Shadows are approximate in one thing: the sweep reads the opacities of voxels, classified alike, and interpolates those.
+//!   Colors stay the default, and the paper's figures keep them.
+//! - **A contour of thickness 0 is a surface** of values: where a ray crosses it is found within the slab, so that it is as
+//!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before or behind all of it.
+//! - **A cut is shaded by its plane**, turned to the surface's own normal over a voxel under it: gradients inside the volume
+//!   have nothing to do with where it was cut.
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one
 //!   brick. It costs 42 % of memory where all is full, and nothing where all is empty, for such bricks are not stored.
 //! - **The normal is −∇f**, out of what is denser. `two_sided` materials turn it to the light.
@@ -166,8 +180,9 @@
 //!
 //! A scene has one view, and lights are directional. In perspective, highlights and head lights are those of an observer far
 //! away on the line of sight, so that voxels are shaded once. A polygon is scan-converted into, and casts its shadow in, the
-//! first volume that holds its middle. Voxels are shaded before they are
-//! interpolated, as in the paper, so that what is magnified much looks soft. A material with highlights, or a light at
+//! first volume that holds its middle; none is scan-converted into values. Voxels are shaded before they are
+//! interpolated, as in the paper, unless a volume states values, so that what is magnified much looks soft. Values are
+//! interpolated as 32-bit floats: integers of more than 24 bits lose their last digits. A material with highlights, or a light at
 //! the observer, is shaded anew for every view. Polygons are planar; meshes are polygons.
 //!
 //! [`texture`]: polygon::texture
@@ -180,6 +195,9 @@
 //! [`pyramid`]: volume::pyramid
 //! [`painting`]: volume::painting
 //! [`ranges`]: volume::ranges
+//! [`seen`]: volume::seen
+//! [`field`]: volume::field
+//! [`coefficients`]: volume::coefficients
 //! [`gradients`]: volume::gradients
 //! [`grid::Scalars`]: volume::grid::Scalars
 //! [`grid::Grid`]: volume::grid::Grid

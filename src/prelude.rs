@@ -4,7 +4,7 @@
 //!
 //! | entity | components |
 //! |---|---|
-//! | a volume | [`volume`] or [`painted_volume`] of an array; [`Classify`], [`Material`], [`Clip`], [`Projection`], [`OpacityUnit`] |
+//! | a volume | [`volume`] or [`painted_volume`] of an array; [`Classify`], [`Material`], [`Clip`], [`Projection`], [`OpacityUnit`], [`Reconstruct`] |
 //! | a polygon, a mesh | [`polygon`], [`triangles`], or a [`Polygon`] or [`Mesh`]; [`Surface`], [`Voxelize`], [`Textured`] |
 //! | a light | [`Light`]; [`CastsShadow`], [`Projects`], [`Shaft`] |
 //! | a texture | a [`Name`] and a [`Picture`] |
@@ -17,9 +17,10 @@ pub use glam;
 pub use hecs::{self, Entity, World};
 
 pub use crate::components::{
-    CastsShadow, Classify, Clip, Color, Contour, DepthCue, Light, Material, Matte, Mesh, Name,
-    OpacityUnit, Order, PixelFilter, Polygon, Projection, Projects, Sampling, Shaft, Skip, Surface,
-    TexelKind, TextureFilter, Textured, Tissue, Toward, TransferPoint, View, Voxelize, Wrap,
+    CastsShadow, Classify, Clip, Color, Contour, DepthCue, Filter, Light, Material, Matte, Mesh,
+    Name, OpacityUnit, Order, PixelFilter, Polygon, Projection, Projects, Reconstruct, Sampling,
+    Shaft, Skip, Surface, TexelKind, TextureFilter, Textured, Tissue, Toward, TransferPoint, View,
+    Voxelize, Wrap,
 };
 pub use crate::error::Error;
 pub use crate::formats::pictures::write_picture;

@@ -14,6 +14,7 @@ macro_rules! stages {
 
 stages! {
     ranges::FindRanges,
+    prefilter::Prefilter,
     classify::Classify,
     shade::Shade,
     scan_convert::ScanConvert,

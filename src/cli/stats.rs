@@ -5,8 +5,8 @@ use gelray::schedule::Ran;
 use gelray::view::samples::Counts;
 use gelray::volume::gel::Gel;
 use gelray::volume::grid::{Painted, Scalars};
-use gelray::volume::layer::Opacity;
 use gelray::volume::pyramid::Pyramid;
+use gelray::volume::ranges::Ranges;
 use hecs::World;
 use serde::Serialize;
 
@@ -40,7 +40,7 @@ impl Counted {
     /// What was counted for a picture of that size.
     pub fn of(world: &World, cast: Counts, size: [usize; 2]) -> Self {
         let rays_per_pixel = cast.rays as f64 / (size[0] * size[1]) as f64;
-        let nan_voxels = world.query::<&Opacity>().iter().map(|made| made.nan_voxels).sum();
+        let nan_voxels = world.query::<&Ranges>().iter().map(Ranges::nan_voxels).sum();
         Self { cast, rays_per_pixel, nan_voxels }
     }
 }

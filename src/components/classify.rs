@@ -111,9 +111,10 @@ pub struct Contour<L = f32> {
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
-    /// r: thickness of the transition between opaque and clear, in voxels (world: r · opacity unit); above 0.
+    /// r: thickness of the transition between opaque and clear, in voxels (world: r · opacity unit). 0 is a surface, of either
+    /// form, that is found between voxels, of a volume that states `reconstruct = "values"`.
     #[serde(default = "two")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 0.0))]
     pub thickness_voxels: f32,
     /// On which sides of the isovalue the contour is seen; default: all that is above it.
     #[serde(default)]

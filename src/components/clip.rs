@@ -39,4 +39,21 @@ impl Clip {
         });
         planes.chain(outside_box)
     }
+
+    /// [`distance`](Self::distance), and the unit vector out of the kept part through the plane or side that it is of; zero
+    /// where nothing is taken away.
+    #[must_use]
+    pub fn nearest(&self, point: DVec3) -> (f64, DVec3) {
+        let nothing = (f64::INFINITY, DVec3::ZERO);
+        let nearer = |a: (f64, DVec3), b: (f64, DVec3)| if b.0 < a.0 { b } else { a };
+        let (distance, across) = self.faces(point).fold(nothing, nearer);
+        // Out of what is kept of a box is into it.
+        let inward = |[p, q]: [[f64; 3]; 2]| (DVec3::from(p) + DVec3::from(q)) / 2.0 - point;
+        let sides = self.planes.len();
+        let of_box = self.faces(point).nth(sides).is_some_and(|side| side == (distance, across));
+        match self.r#box.filter(|_| of_box) {
+            Some(corners) => (distance, across * across.dot(inward(corners)).signum()),
+            None => (distance, across),
+        }
+    }
 }

@@ -36,10 +36,10 @@ pub use molecule::{Molecule, MoleculeStyle};
 pub use polygon::{Matte, Polygon, Surface, Voxelize};
 pub use preset::{Colormap, Preset};
 pub use projection::Projection;
-pub use sampling::{PixelFilter, Sampling, Skip, TexelKind};
+pub use sampling::{Filter, PixelFilter, Sampling, Skip, TexelKind};
 pub use texture::{Projects, Texture, TextureFilter, Textured, Wrap};
 pub use view::View;
-pub use volume::{OpacityUnit, Volume};
+pub use volume::{OpacityUnit, Reconstruct, Volume};
 
 /// The name of an entity, unique in its scene.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]

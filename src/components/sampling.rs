@@ -34,6 +34,8 @@ pub struct Sampling {
     pub outlines: bool,
     /// In which numbers the gel is kept.
     pub texel: TexelKind,
+    /// What values between voxels are, of a volume that states `reconstruct = "values"`; colors are interpolated linearly.
+    pub filter: Filter,
     /// What a pixel is of the positions around it.
     pub pixel_filter: PixelFilter,
 }
@@ -50,6 +52,7 @@ impl Default for Sampling {
             finest: 1,
             outlines: true,
             texel: TexelKind::Auto,
+            filter: Filter::Linear,
             pixel_filter: PixelFilter::Box,
         }
     }
@@ -98,6 +101,20 @@ pub enum TexelKind {
     /// 8-bit fixed point, error 2⁻⁹ a channel of the gel and about 0.01 of a picture: 4 bytes a voxel. Colours above 1 are
     /// cut to 1.
     U8,
+}
+
+/// How values between voxels are reconstructed, and their gradients.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filter {
+    /// Tri-linear, of the voxels' values and of their central differences.
+    Linear,
+    /// The cubic B-spline: twice continuous, and smoother than the voxels.
+    Cubic,
+    /// The cubic of Catmull and Rom: through the voxels' values, once continuous.
+    CatmullRom,
+    /// The cubic B-spline that goes through the voxels' values: of coefficients that are made once a volume.
+    Interpolating,
 }
 
 /// How the positions around a pixel become its colour.

@@ -32,6 +32,20 @@ pub struct Volume {
     /// The world point that the middle of the volume is moved to, of the file and of the stand-in alike; default: where the file puts it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center: Option<[f64; 3]>,
+    /// What is interpolated between voxels.
+    #[serde(default)]
+    pub reconstruct: Reconstruct,
+}
+
+/// What of a volume is interpolated between voxels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Reconstruct {
+    /// Voxels are classified and shaded, and their colors and opacities interpolated, as in the paper.
+    #[default]
+    Colors,
+    /// Scalars are interpolated, and classified and shaded where a ray samples them: sharp where the picture magnifies voxels.
+    Values,
 }
 
 /// u of equation 2, resolved: the thickness in world units of the slab that a voxel's opacity is stated for, above 0.

@@ -45,6 +45,8 @@ impl MayHold {
                 let painting = Painting::new(painted, &volume.grid, clip);
                 (0..all).map(|at| painting.holds(place(at).brick)).collect()
             }
+            // A contour without thickness has one where it casts a shadow.
+            Content::Values => vec![true; all],
             Content::Classified => classified(world, volume, (0..all).map(place)),
         };
         Self { size, counts, held }

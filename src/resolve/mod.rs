@@ -13,6 +13,7 @@ mod order;
 mod polygons;
 mod slides;
 mod textures;
+mod values;
 mod view;
 mod volumes;
 
@@ -35,5 +36,6 @@ pub fn resolve(world: &mut World) -> Result<Vec<Notice>, Fault> {
     order::fill_in(world);
     lights::fill_in(world, extent, &mut notices)?;
     view::fill_in(world, extent, &mut notices)?;
+    values::check(world, &mut notices)?;
     Ok(notices)
 }

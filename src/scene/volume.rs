@@ -8,7 +8,7 @@ use super::kept::KeptVolume;
 use super::loading::Loading;
 use super::{labels, named};
 use crate::components::{
-    Classify, Contour, Labels, Level, Material, OpacityUnit, Projection, Volume,
+    Classify, Contour, Labels, Level, Material, OpacityUnit, Projection, Reconstruct, Volume,
 };
 use crate::error::Error;
 use crate::formats::{Loaded, Stated, Voxels, read_volume, survey};
@@ -29,7 +29,7 @@ fn read_and_place(loading: &mut Loading, entry: usize) -> Result<(), Error> {
     let spacing = if stands_in { None } else { volume.spacing_mm };
     let grid = placed(&read.grid, spacing, volume.center)
         .map_err(|problem| loading.error(entry, "volume", "spacing_mm", problem))?;
-    loading.add(entry, (grid,));
+    loading.add(entry, (grid, volume.reconstruct));
     if let Some(unit) = volume.opacity_unit_mm {
         loading.add(entry, (OpacityUnit(unit),));
     }
@@ -69,7 +69,8 @@ fn kept_or_read(
     entry: usize,
     volume: &Volume,
 ) -> Result<(Loaded, bool), Error> {
-    let stated = Volume { center: None, opacity_unit_mm: None, ..volume.clone() };
+    let reconstruct = Reconstruct::default();
+    let stated = Volume { center: None, opacity_unit_mm: None, reconstruct, ..volume.clone() };
     let name = loading.entries[entry].name.clone();
     if let Some(kept) = loading.kept.volumes.get(&name).filter(|kept| kept.stated == stated) {
         loading.files.extend(kept.files.iter().cloned());

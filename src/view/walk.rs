@@ -207,6 +207,13 @@ impl Tile {
         self.at[axis][lane].wrapping_add(self.step[axis][lane].wrapping_mul(steps))
     }
 
+    /// The fixed-point voxel index of a ray at a sample.
+    #[must_use]
+    #[inline]
+    pub fn at_sample(&self, lane: usize, k: i64) -> [i64; 3] {
+        std::array::from_fn(|axis| self.place(axis, lane, k))
+    }
+
     /// Whether there is no sample at which a ray may be in the grid.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -1,6 +1,6 @@
 //! A cut through a volume: opacity falls from whole to none over one voxel, so that a cut face shows no stairs.
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 use crate::components::Clip;
 use crate::volume::grid::Grid;
@@ -12,6 +12,42 @@ pub struct Cut {
     index_to_world: DAffine3,
     /// The most over which the opacity falls: the largest spacing, world units.
     widest: f64,
+}
+
+/// How a point lies to the part of a cut that is nearest to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// How far inside what is left it lies, world units; below 0 where it is cut away.
+    pub inside: f64,
+    /// The unit vector out of what is left; zero where nothing is cut.
+    pub normal: DVec3,
+    /// How long a voxel is along that vector, world units.
+    width: f64,
+}
+
+impl Section {
+    /// The part of a slab around the point that is left, 0..=1; `way` is the ray's way through the slab, world units. The cut
+    /// counts as steep where it is met flatly: it is never spread over more than a voxel.
+    #[must_use]
+    pub fn left(&self, way: DVec3) -> f64 {
+        let spread = way.dot(self.normal).abs().min(self.width);
+        if spread > 0.0 {
+            (self.inside / spread + 0.5).clamp(0.0, 1.0)
+        } else {
+            f64::from(u8::from(self.inside >= 0.0))
+        }
+    }
+
+    /// A normal turned to that of the cut in the layer under it: by the cut's alone as deep as `deep` voxels, by its own
+    /// alone from a voxel deeper on.
+    #[must_use]
+    pub fn turned(&self, normal: Vec3, deep: f64) -> Vec3 {
+        let part = (deep + 1.0 - self.inside / self.width).clamp(0.0, 1.0);
+        if part == 0.0 {
+            return normal;
+        }
+        normal.lerp(self.normal.as_vec3(), part as f32).normalize_or_zero()
+    }
 }
 
 /// How much of a block of voxels a cut leaves.
@@ -49,6 +85,20 @@ impl Cut {
         } else {
             Left::Part
         }
+    }
+
+    /// How a world point lies to the cut.
+    #[must_use]
+    pub fn at(&self, world: DVec3) -> Section {
+        let (inside, normal) = self.clip.nearest(world);
+        Section { inside, normal, width: self.voxel(normal) }
+    }
+
+    /// How a voxel lies to the cut.
+    #[must_use]
+    pub fn under(&self, voxel: [usize; 3]) -> Section {
+        let voxel = DVec3::from(voxel.map(|n| n as f64));
+        self.at(self.index_to_world.transform_point3(voxel))
     }
 
     /// What the opacity of a voxel is multiplied by, 0..=1: 1/2 on the cut itself.
@@ -100,6 +150,25 @@ mod tests {
         let ripple =
             (0..64).map(off).fold([0.0_f64; 2], |[low, high], off| [low.min(off), high.max(off)]);
         assert!(ripple[1] - ripple[0] < 0.1, "{ripple:?}");
+    }
+
+    #[test]
+    fn a_section_tells_the_way_out_and_what_is_left_of_a_slab() {
+        let clip = Clip {
+            planes: vec![[0.0, 0.0, 2.0, -4.0]],
+            r#box: Some([[9.0, -50.0, -50.0], [90.0, 50.0, 50.0]]),
+        };
+        let cut = Cut::new(&clip, &grid());
+        let under = cut.at(DVec3::new(5.0, 1.0, -2.25));
+        assert_eq!((under.inside, under.normal), (0.25, DVec3::Z));
+        assert_eq!(under.left(DVec3::new(0.0, 3.0, -0.5)), 1.0);
+        assert_eq!(under.left(DVec3::new(0.0, 0.0, -1.0)), 0.75);
+        assert_eq!(under.left(DVec3::X), 1.0);
+        assert_eq!(under.turned(Vec3::X, 0.5), Vec3::Z);
+        assert_eq!(cut.at(DVec3::new(8.5, 0.0, -9.0)).normal, DVec3::X);
+        assert_eq!(cut.at(DVec3::new(2.0, 0.0, -9.0)).turned(Vec3::X, 0.5), Vec3::X);
+        let beyond = cut.at(DVec3::new(10.0, 0.0, -9.0));
+        assert_eq!((beyond.inside, beyond.left(DVec3::X)), (-1.0, 0.0));
     }
 
     #[test]

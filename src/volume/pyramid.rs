@@ -26,6 +26,8 @@ impl Product for Pyramid {}
 
 #[derive(Debug)]
 struct Levels {
+    /// For each brick: its number among those with cells; empty where the gel's own table tells.
+    table: Vec<u32>,
     cells: Vec<[u64; CELLS]>,
     blocks: [usize; 3],
     distances: Vec<u8>,
@@ -48,27 +50,39 @@ impl Pyramid {
             .collect();
         let full = FullBlocks::of(gel.counts(), gel.table(), &cells);
         let near = Near::of(gel.counts(), gel.table(), &cells);
-        Self(Arc::new(Levels { cells, blocks: full.counts, distances: full.distances(), near }))
+        let (blocks, table) = (full.counts, Vec::new());
+        Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
+    }
+
+    /// The pyramid of interesting `cells`, of the bricks that `table` numbers on a grid of `counts` bricks.
+    #[must_use]
+    pub fn of_cells(counts: [usize; 3], table: Vec<u32>, cells: Vec<[u64; CELLS]>) -> Self {
+        let full = FullBlocks::of(counts, &table, &cells);
+        let near = Near::of(counts, &table, &cells);
+        let blocks = full.counts;
+        Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
     }
 
     /// The arrays behind the pointer, for rays.
     #[must_use]
     pub fn slices(&self) -> PyramidSlices<'_> {
-        let Levels { cells, blocks, distances, near } = &*self.0;
-        PyramidSlices { cells, blocks: *blocks, distances, near }
+        let Levels { table, cells, blocks, distances, near } = &*self.0;
+        PyramidSlices { table, cells, blocks: *blocks, distances, near }
     }
 
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         let cells = self.0.cells.len() * size_of::<[u64; CELLS]>();
-        (cells + self.0.distances.len()) as u64 + self.0.near.bytes()
+        (cells + self.0.distances.len() + self.0.table.len() * size_of::<u32>()) as u64
+            + self.0.near.bytes()
     }
 }
 
 /// The arrays of a pyramid, a pointer nearer.
 #[derive(Debug, Clone, Copy)]
 pub struct PyramidSlices<'a> {
+    table: &'a [u32],
     cells: &'a [[u64; CELLS]],
     blocks: [usize; 3],
     distances: &'a [u8],
@@ -88,6 +102,17 @@ impl<'a> PyramidSlices<'a> {
     #[inline]
     pub fn is_near(self, reaching: usize, cell: [i64; 3]) -> Option<bool> {
         self.near.holds(reaching, cell)
+    }
+
+    /// Whether a cell may be seen, of a pyramid that was made [of cells](Pyramid::of_cells).
+    #[must_use]
+    #[inline]
+    pub fn shows(self, cell: [usize; 3]) -> bool {
+        let [x, y, z] = cell.map(|n| n / CELLS);
+        let [nx, ny, _] = self.blocks.map(|n| n * BLOCK / CELLS);
+        let words = self.table.get((z * ny + y) * nx + x).and_then(|&brick| self.words(brick));
+        let [x, y, z] = cell.map(|n| n % CELLS);
+        words.is_some_and(|words| words[z] >> (CELLS * y + x) & 1 == 1)
     }
 
     /// The interesting cells of a stored brick: bit `8 y + x` of word `z`; `None` for one that is not stored.

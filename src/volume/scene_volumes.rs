@@ -3,7 +3,7 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{Classify, OpacityUnit, Order, Projection};
+use crate::components::{CastsShadow, Classify, OpacityUnit, Order, Projection, Reconstruct};
 use crate::volume::grid::{Grid, Painted, Scalars};
 
 /// A volume of a scene.
@@ -26,6 +26,8 @@ pub enum Content {
     Classified,
     /// Scalars of which a ray shows one: no gel is made of them.
     Projected,
+    /// Scalars with a classification, which is asked where rays sample them and not at voxels.
+    Values,
     /// RGBA: nothing is to be classified and shaded.
     Painted,
     /// Nothing that is seen by itself: a place for polygons to be scan-converted into.
@@ -50,16 +52,17 @@ impl SceneVolume {
 /// The volumes of a scene, in its order.
 #[must_use]
 pub fn volumes(world: &World) -> Vec<SceneVolume> {
-    type Voxels<'a> =
-        (Option<&'a Scalars>, Option<&'a Classify>, Option<&'a Painted>, Option<&'a Projection>);
+    type How<'a> = (Option<&'a Projection>, Option<&'a Reconstruct>);
+    type Voxels<'a> = (Option<&'a Scalars>, Option<&'a Classify>, Option<&'a Painted>, How<'a>);
     type Volume<'a> = (Entity, &'a Grid, Option<&'a OpacityUnit>, Option<&'a Order>, Voxels<'a>);
     let mut query = world.query::<Volume<'_>>();
     let mut found: Vec<_> = query.iter().collect();
     found.sort_by_key(|(entity, _, _, order, _)| (order.copied(), *entity));
     let volume = |(entity, grid, unit, _, voxels): <Volume<'_> as hecs::Query>::Item<'_>| {
         let content = match voxels {
-            (Some(_), Some(_), _, Some(_)) => Content::Projected,
-            (Some(_), Some(_), _, None) => Content::Classified,
+            (Some(_), Some(_), _, (Some(_), _)) => Content::Projected,
+            (Some(_), Some(_), _, (_, Some(Reconstruct::Values))) => Content::Values,
+            (Some(_), Some(_), ..) => Content::Classified,
             (_, _, Some(_), _) => Content::Painted,
             _ => Content::Clear,
         };
@@ -75,6 +78,27 @@ pub fn with_content(world: &World, content: Content) -> Vec<SceneVolume> {
     volumes(world).into_iter().filter(|volume| volume.content == content).collect()
 }
 
+/// Those of scalars that state how they are classified, wherever that is asked, in the order of the scene.
+#[must_use]
+pub fn scanned(world: &World) -> Vec<SceneVolume> {
+    use Content::{Classified, Projected, Values};
+    let is_scanned = |v: &SceneVolume| matches!(v.content, Classified | Projected | Values);
+    volumes(world).into_iter().filter(is_scanned).collect()
+}
+
+/// Those whose opacities at voxels something asks for: all that are classified there, and all others of scalars where a
+/// light casts shadows.
+#[must_use]
+pub fn with_opacities(world: &World) -> Vec<SceneVolume> {
+    let shadows = world.query::<&CastsShadow>().iter().next().is_some();
+    let asked = |v: &SceneVolume| match v.content {
+        Content::Classified => true,
+        Content::Values => shadows,
+        _ => false,
+    };
+    scanned(world).into_iter().filter(asked).collect()
+}
+
 /// Those that are seen by themselves, in the order of the scene.
 #[must_use]
 pub fn visible(world: &World) -> Vec<SceneVolume> {
@@ -84,9 +108,17 @@ pub fn visible(world: &World) -> Vec<SceneVolume> {
 /// Those that are made gel of, in the order of the scene.
 #[must_use]
 pub fn gels(world: &World) -> Vec<SceneVolume> {
-    let mut gels = visible(world);
-    gels.retain(|volume| volume.content != Content::Projected);
+    let mut gels = stepped(world);
+    gels.retain(|volume| volume.content != Content::Values);
     gels
+}
+
+/// Those that rays go through sample by sample, in the order of the scene.
+#[must_use]
+pub fn stepped(world: &World) -> Vec<SceneVolume> {
+    let mut stepped = visible(world);
+    stepped.retain(|volume| volume.content != Content::Projected);
+    stepped
 }
 
 /// Which of some volumes something around `middle` (a world point) is scan-converted into: the first that holds it, else

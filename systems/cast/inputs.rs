@@ -5,21 +5,22 @@ use hecs::{Entity, World};
 use super::projection::StatedProjection;
 use super::shaft::StatedShaft;
 use crate::components::{
-    Classify, Clip, DepthCue, Light, Material, Order, Projection, Sampling, Shaft, Surface, View,
-    Voxelize,
+    Classify, Clip, DepthCue, Filter, Light, Material, Order, Projection, Sampling, Shaft, Surface,
+    View, Voxelize,
 };
-use crate::light::shading::Lamps;
+use crate::light::shading::{Lamps, Reflectance, lamps};
 use crate::light::strength::LightStrength;
 use crate::light::strength::ProjectedBy;
 use crate::polygon::face::{FaceColors, Faces};
 use crate::polygon::texture::TexturedBy;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
+use crate::volume::coefficients::Coefficients;
 use crate::volume::gel::Gel;
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::pyramid::Pyramid;
 use crate::volume::ranges::Ranges;
-use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes, with_content};
+use crate::volume::scene_volumes::{self, SceneVolume, around, volumes, with_content};
 
 /// What the rays of a view meet.
 #[derive(PartialEq)]
@@ -29,7 +30,7 @@ pub struct Inputs {
     pub extent: Extent,
     pub cue: Option<DepthCue>,
     /// In the order of the scene.
-    pub volumes: Vec<PlacedGel>,
+    pub volumes: Vec<Placed>,
     pub polygons: Vec<TracedPolygons>,
     pub lamps: Lamps,
     /// β of each light of `lamps` that casts a shadow.
@@ -50,13 +51,34 @@ pub struct TracedPolygons {
     pub grid: Option<Grid>,
 }
 
-/// A volume's gel and where it is.
+/// A volume and where it is.
 #[derive(PartialEq)]
-pub struct PlacedGel {
+pub struct Placed {
     pub grid: Grid,
-    pub gel: Gel,
+    pub content: Content,
     pub pyramid: Option<Pyramid>,
     pub unit: f64,
+}
+
+/// What rays sample of a volume.
+#[derive(PartialEq)]
+pub enum Content {
+    Gel(Gel),
+    Values(Box<StatedValues>),
+}
+
+/// Scalars that are classified and shaded at samples, and all that decides how they look.
+#[derive(PartialEq)]
+pub struct StatedValues {
+    /// What is interpolated: the volume's own, or a spline's coefficients.
+    pub scalars: Scalars,
+    pub filter: Filter,
+    pub classify: Classify,
+    pub material: Material,
+    pub clip: Option<Clip>,
+    pub lamps: Lamps,
+    /// β of each light of `lamps` that casts a shadow.
+    pub strengths: Vec<Option<LightStrength>>,
 }
 
 impl Inputs {
@@ -74,7 +96,7 @@ impl Inputs {
             sampling: sampling.clone(),
             extent,
             cue,
-            volumes: gels(world),
+            volumes: placed(world, sampling.filter),
             strengths: strengths(world, &lamps),
             polygons,
             lamps,
@@ -125,14 +147,37 @@ fn shafts(world: &World) -> Vec<StatedShaft> {
     shafts.into_iter().map(stated).collect()
 }
 
-/// The gels of the scene's volumes, in its order.
-fn gels(world: &World) -> Vec<PlacedGel> {
-    let gel = |SceneVolume { entity, grid, unit, .. }| {
-        let gel = (*world.get::<&Gel>(entity).ok()?).clone();
+/// The scene's volumes as far as they are seen, in its order.
+fn placed(world: &World, filter: Filter) -> Vec<Placed> {
+    let placed = |SceneVolume { entity, grid, unit, content }| {
+        let content = if content == scene_volumes::Content::Values {
+            Content::Values(Box::new(values(world, entity, filter)?))
+        } else {
+            Content::Gel((*world.get::<&Gel>(entity).ok()?).clone())
+        };
         let pyramid = world.get::<&Pyramid>(entity).ok().map(|pyramid| (*pyramid).clone());
-        Some(PlacedGel { grid, gel, pyramid, unit })
+        Some(Placed { grid, content, pyramid, unit })
     };
-    volumes(world).into_iter().filter_map(gel).collect()
+    volumes(world).into_iter().filter_map(placed).collect()
+}
+
+/// What is stated of a volume whose values are sampled.
+fn values(world: &World, entity: Entity, filter: Filter) -> Option<StatedValues> {
+    type Stated<'a> = (&'a Scalars, &'a Classify, Option<&'a Material>, Option<&'a Clip>);
+    let mut query = world.query_one::<Stated<'_>>(entity);
+    let (scalars, classify, material, clip) = query.get().ok()?;
+    let material = material.cloned().unwrap_or_default();
+    let lamps = lamps(world, &Reflectance::from(&material));
+    let made = world.get::<&Coefficients>(entity).ok();
+    Some(StatedValues {
+        scalars: made.map_or_else(|| scalars.clone(), |made| made.values.clone()),
+        filter,
+        classify: classify.clone(),
+        material,
+        clip: clip.cloned(),
+        strengths: strengths(world, &lamps),
+        lamps,
+    })
 }
 
 /// The volumes of which a ray shows one value, in the order of the scene.
@@ -149,7 +194,10 @@ fn projections(world: &World) -> Vec<StatedProjection> {
         };
         Some(stated)
     };
-    with_content(world, Content::Projected).into_iter().filter_map(projection).collect()
+    with_content(world, scene_volumes::Content::Projected)
+        .into_iter()
+        .filter_map(projection)
+        .collect()
 }
 
 fn get<T: hecs::Component + Clone>(world: &World, entity: Entity) -> Option<T> {

@@ -13,20 +13,51 @@ use crate::view::composite::{recolor, thicken};
 use crate::view::ray::Ray;
 use crate::view::samples::Counts;
 use crate::view::walk::{FRACTION_BITS, Tile, Walk};
-use crate::volume::gel::{Texel, TexelSlices};
+use crate::volume::gel::Texel;
 use crate::volume::pyramid::{BLOCK, PyramidSlices};
 
-/// The gel of one volume as the rays of one view meet it.
-pub struct Medium<'a, T> {
+/// What a volume is at samples: gel, or values that are classified there.
+pub trait Source: Sync {
+    /// Which of `lanes` (all inside the grid) meet anything at sample `k`, and what: associated RGBA per opacity unit; of its
+    /// reflected part `fade` is left, and slabs are so many opacity units thick. No bit depends on the `level` of instructions.
+    fn meet(
+        &self,
+        level: Level,
+        fade: Option<f32>,
+        tile: &Tile,
+        sample: (i64, Lanes),
+        seen_and_ratios: (&mut [Vec4; LANES], &[f64; LANES]),
+    ) -> Lanes;
+
+    /// How far from its samples it is looked for, cells; no bit of what is empty as far as that may be missed.
+    fn reach(&self, _: &Tile) -> f64 {
+        0.0
+    }
+}
+
+impl<T: Texel> Source for kernel::Gel<'_, T> {
+    #[inline]
+    fn meet(
+        &self,
+        level: Level,
+        fade: Option<f32>,
+        tile: &Tile,
+        sample: (i64, Lanes),
+        (seen, _): (&mut [Vec4; LANES], &[f64; LANES]),
+    ) -> Lanes {
+        dispatch!(level, simd => kernel::meet(simd, *self, fade, tile, sample, seen))
+    }
+}
+
+/// One volume as the rays of one view meet it.
+pub struct Medium<'a, S> {
     /// How samples walk through it.
     pub walk: Walk,
     /// The view's frame.
     pub camera: &'a Camera,
-    /// The gel; its reflected part where `ambient` is apart.
-    pub gel: TexelSlices<'a, T>,
-    /// The ambient part of its colour, where reflected light is cued.
-    pub ambient: Option<TexelSlices<'a, T>>,
-    /// What steps over empty gel; `None`: every sample is taken.
+    /// What it is at samples.
+    pub source: S,
+    /// What steps over empty space; `None`: every sample is taken.
     pub pyramid: Option<PyramidSlices<'a>>,
     /// Δ / u.
     pub ratio: f64,
@@ -70,7 +101,7 @@ struct Bundle {
 }
 
 impl Bundle {
-    fn of(tile: &Tile, pyramid: Option<PyramidSlices<'_>>) -> Self {
+    fn of(tile: &Tile, pyramid: Option<PyramidSlices<'_>>, reach: f64) -> Self {
         let last = LANES - 1;
         // Places are affine over the tile: its middle is that of opposite corners, and the corners are farthest from it.
         let middle = |triples: &[[i64; LANES]; 3]| {
@@ -90,7 +121,7 @@ impl Bundle {
         let fastest = step.iter().map(|step| step.unsigned_abs()).max().unwrap_or(0).max(1);
         // Rounding moves each end by less than a unit, and by as much again with every step from the middle.
         let steps = tile.some.map(|k| k.abs_diff(tile.middle)).into_iter().max().unwrap_or(0);
-        let radius = (spread.saturating_add(steps) + 8) as f64 / unit;
+        let radius = (spread.saturating_add(steps) + 8) as f64 / unit + reach;
         let reaching = pyramid.and_then(|_| PyramidSlices::reaching(radius));
         Self { at, step, radius, per_cell: unit / fastest as f64, reaching }
     }
@@ -102,7 +133,7 @@ impl Bundle {
     }
 }
 
-impl<T: Texel> Medium<'_, T> {
+impl<S: Source> Medium<'_, S> {
     /// The world point of a ray that has entered at sample `k`, and its slab's thickness against the opacity unit.
     pub fn place(&self, entered: &Entered, lane: usize, k: i64) -> (DVec3, f64) {
         let depth = (k as f64 + 0.5) * self.distance;
@@ -122,7 +153,7 @@ impl<T: Texel> Medium<'_, T> {
     }
 }
 
-impl<T: Texel> Media for Medium<'_, T> {
+impl<S: Source> Media for Medium<'_, S> {
     type Entered = Entered;
 
     fn enter(&self, packet: &Packet, entered: &mut Entered) -> [i64; 2] {
@@ -132,7 +163,7 @@ impl<T: Texel> Media for Medium<'_, T> {
         }
         entered.packet = Some(*packet);
         entered.next = i64::MIN;
-        entered.bundle = Bundle::of(&entered.tile, self.pyramid);
+        entered.bundle = Bundle::of(&entered.tile, self.pyramid, self.source.reach(&entered.tile));
         entered.ratios = [self.ratio; LANES];
         if !self.walk.is_parallel() {
             entered.ratios = std::array::from_fn(|lane| {
@@ -176,11 +207,9 @@ impl<T: Texel> Media for Medium<'_, T> {
                 .fold(0, |set, lane| set | 1 << lane)
                 & lanes;
         }
-        let gel = kernel::Gel { texels: self.gel, ambient: self.ambient, pyramid: self.pyramid };
         let fade = self.cue.map(|cue| cue.factor((k as f64 + 0.5) * self.distance) as f32);
-        let (tile, seen) = (&entered.tile, &mut entered.seen);
-        let met =
-            dispatch!(self.level, simd => kernel::meet(simd, gel, fade, tile, (k, there), seen));
+        let Entered { tile, seen, ratios, .. } = entered;
+        let met = self.source.meet(self.level, fade, tile, (k, there), (seen, ratios));
         counts.packet_steps += 1;
         counts.samples += u64::from(met.count_ones());
         counts.cells_skipped += u64::from((there & !met).count_ones());

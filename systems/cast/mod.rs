@@ -2,14 +2,16 @@
 //!
 //! `inputs` gathers what a view's rays may meet, and this file makes of it what they need. `adaptive` says where rays are
 //! cast, `caster` takes them in packets of sixteen, `march` takes a packet through slabs and slivers. `media` is the gel as
-//! a packet meets it: nothing, one `medium`, or `several` that overlap; `beams` says where it can meet any. `projection` is
-//! volumes of which a ray shows one value, `sought` along it. `polygons` says which faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
+//! a packet meets it: nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing`), or `several` that overlap; `beams` says
+//! where it can meet any. `projection` is volumes of which a ray shows one value, `sought` along it. `polygons` says which
+//! faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
 
 mod adaptive;
 mod appearance;
 mod band;
 mod beams;
 mod caster;
+mod crossing;
 mod cue;
 mod inputs;
 mod kernel;
@@ -28,6 +30,7 @@ mod shaft;
 mod sought;
 mod targets;
 mod texture;
+mod values;
 mod weight;
 
 use std::sync::Arc;
@@ -45,18 +48,19 @@ use crate::view::extent::Extent;
 use crate::view::samples::{Layout, Samples};
 use crate::view::viewer::Viewer;
 use crate::view::walk::Walk;
+use crate::volume::coefficients::Coefficients;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
-use crate::volume::pyramid::Pyramid;
+use crate::volume::pyramid::{Pyramid, PyramidSlices};
 use crate::volume::ranges::Ranges;
 use adaptive::Refinement;
 use appearance::Appearance;
 use beams::Beams;
 use caster::BeamCaster;
 use cue::Cue;
-use inputs::{Inputs, PlacedGel};
+use inputs::{Content, Inputs, Placed};
 use march::Slabs;
 use media::{Media, Nothing};
-use medium::Medium;
+use medium::{Medium, Source};
 use polygons::Polygons;
 use preview::Preview;
 use projected::ProjectedFace;
@@ -64,6 +68,7 @@ use projection::Projections;
 use several::{AnyMedium, Several};
 use shaft::Dust;
 use texture::FaceTexture;
+use values::Values;
 
 /// Casts the rays of every view.
 pub struct Cast;
@@ -73,6 +78,7 @@ impl System for Cast {
     const NAME: &'static str = "cast";
     const READS: &'static [ProductKey] = &[
         ProductKey::of::<Gel>(),
+        ProductKey::of::<Coefficients>(),
         ProductKey::of::<Pyramid>(),
         ProductKey::of::<LightStrength>(),
         ProductKey::of::<Ranges>(),
@@ -157,6 +163,7 @@ fn cast(inputs: &Inputs, camera: &Camera, watch: Onlookers<'_>) -> Result<Sample
             AnyMedium::F32(medium) => rays.refine(inputs, layout, &medium, watch),
             AnyMedium::U16(medium) => rays.refine(inputs, layout, &medium, watch),
             AnyMedium::U8(medium) => rays.refine(inputs, layout, &medium, watch),
+            AnyMedium::Values(medium) => rays.refine(inputs, layout, &*medium, watch),
         },
         _ => {
             let several = Several { media, dust };
@@ -198,25 +205,32 @@ struct SharedView<'a> {
 }
 
 impl<'a> SharedView<'a> {
-    /// A volume as the rays of the view meet it, whatever numbers its gel is kept in; `None` where it is too small to be met.
+    /// A volume as the rays of the view meet it, whatever it is made of; `None` where it is too small to be met.
     fn medium(
         &self,
-        placed: &'a PlacedGel,
+        placed: &'a Placed,
         dust: Option<&'a Dust>,
     ) -> Result<Option<AnyMedium<'a>>, Error> {
-        let Gel { lit, ambient } = &placed.gel;
+        let Gel { lit, ambient } = match &placed.content {
+            Content::Gel(gel) => gel,
+            Content::Values(stated) => {
+                let values = Values::new(stated, (&placed.grid, placed.unit), self.steps(placed));
+                let medium = self.of(placed, values, dust)?;
+                return Ok(medium.map(|medium| AnyMedium::Values(Box::new(medium))));
+            }
+        };
         Ok(match (lit, ambient) {
-            (GelBricks::F32(lit), None) => self.of(placed, lit, None, dust)?.map(AnyMedium::F32),
+            (GelBricks::F32(lit), None) => self.gel(placed, lit, None, dust)?.map(AnyMedium::F32),
             (GelBricks::F32(lit), Some(GelBricks::F32(ambient))) => {
-                self.of(placed, lit, Some(ambient), dust)?.map(AnyMedium::F32)
+                self.gel(placed, lit, Some(ambient), dust)?.map(AnyMedium::F32)
             }
-            (GelBricks::U16(lit), None) => self.of(placed, lit, None, dust)?.map(AnyMedium::U16),
+            (GelBricks::U16(lit), None) => self.gel(placed, lit, None, dust)?.map(AnyMedium::U16),
             (GelBricks::U16(lit), Some(GelBricks::U16(ambient))) => {
-                self.of(placed, lit, Some(ambient), dust)?.map(AnyMedium::U16)
+                self.gel(placed, lit, Some(ambient), dust)?.map(AnyMedium::U16)
             }
-            (GelBricks::U8(lit), None) => self.of(placed, lit, None, dust)?.map(AnyMedium::U8),
+            (GelBricks::U8(lit), None) => self.gel(placed, lit, None, dust)?.map(AnyMedium::U8),
             (GelBricks::U8(lit), Some(GelBricks::U8(ambient))) => {
-                self.of(placed, lit, Some(ambient), dust)?.map(AnyMedium::U8)
+                self.gel(placed, lit, Some(ambient), dust)?.map(AnyMedium::U8)
             }
             _ => {
                 let problem = "the two parts of the gel are of different texels";
@@ -225,25 +239,39 @@ impl<'a> SharedView<'a> {
         })
     }
 
-    fn of<T: Texel>(
+    fn gel<T: Texel>(
         &self,
-        placed: &'a PlacedGel,
+        placed: &'a Placed,
         lit: &'a Texels<T>,
         ambient: Option<&'a Texels<T>>,
         dust: Option<&'a Dust>,
-    ) -> Result<Option<Medium<'a, T>>, Error> {
-        let PlacedGel { grid, unit, .. } = placed;
+    ) -> Result<Option<Medium<'a, kernel::Gel<'a, T>>>, Error> {
+        let (texels, ambient) = (lit.slices(), ambient.map(Texels::slices));
+        let pyramid = self.steps(placed);
+        self.of(placed, kernel::Gel { texels, ambient, pyramid }, dust)
+    }
+
+    /// What steps over empty parts of a volume.
+    fn steps(&self, placed: &'a Placed) -> Option<PyramidSlices<'a>> {
+        placed.pyramid.as_ref().filter(|_| self.skips).map(Pyramid::slices)
+    }
+
+    fn of<S: Source>(
+        &self,
+        placed: &'a Placed,
+        source: S,
+        dust: Option<&'a Dust>,
+    ) -> Result<Option<Medium<'a, S>>, Error> {
         let distance = self.slabs.distance;
-        let walk = Walk::new(grid, self.camera, distance)
+        let walk = Walk::new(&placed.grid, self.camera, distance)
             .map_err(|problem| Error::entity("view", problem))?;
-        let pyramid = placed.pyramid.as_ref().filter(|_| self.skips);
+        let pyramid = self.steps(placed);
         Ok(walk.map(|walk| Medium {
             walk,
             camera: self.camera,
-            gel: lit.slices(),
-            ambient: ambient.map(Texels::slices),
-            pyramid: pyramid.map(Pyramid::slices),
-            ratio: distance / unit,
+            source,
+            pyramid,
+            ratio: distance / placed.unit,
             distance,
             cue: self.cue,
             dust,

@@ -2,21 +2,25 @@
 
 use glam::{DVec3, Vec4};
 
+use super::kernel::Gel;
 use super::lanes::{Lanes, Packet};
 use super::media::Media;
 use super::medium::{Entered, Medium, slab};
 use super::shaft::Dust;
+use super::values::Values;
 use crate::view::composite::overlap;
 use crate::view::samples::Counts;
 
-/// A volume in whatever numbers its gel is kept.
+/// A volume in whatever numbers its gel is kept, or without.
 pub enum AnyMedium<'a> {
     /// 32-bit floats.
-    F32(Medium<'a, [f32; 4]>),
+    F32(Medium<'a, Gel<'a, [f32; 4]>>),
     /// 16-bit fixed point.
-    U16(Medium<'a, [u16; 4]>),
+    U16(Medium<'a, Gel<'a, [u16; 4]>>),
     /// 8-bit fixed point.
-    U8(Medium<'a, [u8; 4]>),
+    U8(Medium<'a, Gel<'a, [u8; 4]>>),
+    /// No gel: values, classified at samples.
+    Values(Box<Medium<'a, Values<'a>>>),
 }
 
 /// The volumes of a scene.
@@ -52,6 +56,7 @@ macro_rules! with_medium {
             AnyMedium::F32($inner) => $body,
             AnyMedium::U16($inner) => $body,
             AnyMedium::U8($inner) => $body,
+            AnyMedium::Values($inner) => $body,
         }
     };
 }

@@ -2,7 +2,7 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{self, Clip, Material, OpacityUnit, Projection};
+use crate::components::{self, Clip, Material, OpacityUnit};
 use crate::error::Error;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
@@ -14,7 +14,7 @@ use crate::volume::grid::{Grid, Scalar, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::Opacity;
 use crate::volume::ranges::Ranges;
-use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
+use crate::volume::scene_volumes::{SceneVolume, with_opacities};
 use crate::with_scalars;
 
 /// Makes the [`Opacity`] of every volume that states how it is classified.
@@ -48,8 +48,13 @@ impl System for Classify {
             Option<&'a Tint>,
         );
         let watch = out.watch();
-        let mut volumes = world.query::<Volume>().without::<&Projection>();
-        for (entity, scalars, ranges, grid, classify, unit, clip, tint) in &mut volumes {
+        let asked: Vec<_> = with_opacities(world).into_iter().map(|volume| volume.entity).collect();
+        for (entity, scalars, ranges, grid, classify, unit, clip, tint) in
+            &mut world.query::<Volume>()
+        {
+            if !asked.contains(&entity) {
+                continue;
+            }
             let inputs = Inputs {
                 scalars: scalars.clone(),
                 ranges: ranges.clone(),
@@ -71,9 +76,11 @@ impl System for Classify {
 
     fn plan(world: &World) -> Plan {
         let bytes = |v: &SceneVolume| (v.entity, MayHold::of(world, v).bytes::<f32>());
-        let makes: Vec<_> = with_content(world, Content::Classified).iter().map(bytes).collect();
+        let makes: Vec<_> = with_opacities(world).iter().map(bytes).collect();
         if makes.is_empty() {
-            return Plan::absent("no volume of scalars states `classify`");
+            return Plan::absent(
+                "no volume of scalars is classified at its voxels, and no light asks for their opacities",
+            );
         }
         Plan { makes, why: "`classify` states which scalars are seen" }
     }
@@ -83,7 +90,12 @@ impl Inputs {
     fn classify<T: Scalar>(&self, values: &[T], watch: &Watch) -> Opacity {
         let size = self.grid.size;
         // Opacity does not depend on the material, so that a change of colour classifies nothing again.
-        let classifier = Classifier::new(&self.classify, &Material::default(), self.unit.0);
+        // What has no thickness casts its shadow as one voxel has it.
+        let mut stated = self.classify.clone();
+        for contour in stated.iso.iter_mut().filter(|contour| contour.thickness_voxels == 0.0) {
+            contour.thickness_voxels = 1.0;
+        }
+        let classifier = Classifier::new(&stated, &Material::default(), self.unit.0);
         let cut = self.clip.as_ref().map(|clip| Cut::new(clip, &self.grid));
         let gradients = Gradients::new(&self.grid);
         let left = |place: Place| {

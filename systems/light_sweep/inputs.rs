@@ -10,7 +10,7 @@ use crate::polygon::face::Faces;
 use crate::volume::bricks::Bricks;
 use crate::volume::grid::{Grid, Painted, Scalars};
 use crate::volume::layer::{Composite, Coverage, Opacity};
-use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes};
+use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes, with_content};
 
 /// What one light's strengths are made from. Nothing of a view, but for a light that stands at the observer.
 #[derive(PartialEq)]
@@ -102,13 +102,14 @@ pub(super) fn stated_volumes(world: &World) -> Vec<SceneVolume> {
     all.retain(|volume| match volume.content {
         Content::Projected => voxelized,
         Content::Clear => voxelized || is_scanned(volume.entity),
-        Content::Classified | Content::Painted => true,
+        Content::Classified | Content::Values | Content::Painted => true,
     });
     all
 }
 
-/// Whether hybrid polygons receive this light, or a shaft of it is seen.
+/// Whether hybrid polygons or values at samples receive this light, or a shaft of it is seen.
 pub(super) fn reads_buffer(world: &World, light: Entity) -> bool {
-    world.query::<&Faces>().without::<&Voxelize>().iter().next().is_some()
+    !with_content(world, Content::Values).is_empty()
+        || world.query::<&Faces>().without::<&Voxelize>().iter().next().is_some()
         || world.get::<&Shaft>(light).is_ok_and(|shaft| shaft.attenuated)
 }

@@ -90,7 +90,7 @@ impl System for LightSweep {
         let why = if volumes.len() > 1 {
             "`casts_shadow`, with a 3D light-strength buffer for each volume, since what comes through one lights the others"
         } else if makes.iter().any(|(entity, _)| reads_buffer(world, *entity)) {
-            "`casts_shadow`, with the 3D light-strength buffer because hybrid polygons or a shaft of light read it"
+            "`casts_shadow`, with the 3D light-strength buffer because hybrid polygons, values at samples or a shaft of light read it"
         } else {
             "`casts_shadow`; only the slices within the bias are kept, since nothing reads a 3D light-strength buffer"
         };

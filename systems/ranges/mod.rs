@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::ranges::{self, Ranges};
-use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
+use crate::volume::scene_volumes::{SceneVolume, scanned};
 
 /// Makes the [`Ranges`] of every volume that is to be classified.
 pub struct FindRanges;
@@ -33,8 +33,7 @@ impl System for FindRanges {
 
     fn plan(world: &World) -> Plan {
         let bytes = |v: &SceneVolume| (v.entity, ranges::bytes(v.size()));
-        let asked = [Content::Classified, Content::Projected].map(|c| with_content(world, c));
-        let makes: Vec<_> = asked.iter().flatten().map(bytes).collect();
+        let makes: Vec<_> = scanned(world).iter().map(bytes).collect();
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }

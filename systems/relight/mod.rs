@@ -18,7 +18,7 @@ use crate::volume::gel::GelBricks;
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
-use crate::volume::scene_volumes::{Content, SceneVolume, gels};
+use crate::volume::scene_volumes::{Content, SceneVolume, gels, with_content};
 
 use lit_layer::LitLayer;
 
@@ -76,6 +76,9 @@ impl System for Relight {
             held.gel_bytes(texel).saturating_mul(1 + u64::from(apart))
         };
         let makes: Vec<_> = gels(world).iter().map(|v| (v.entity, bytes(v))).collect();
+        if makes.is_empty() && !with_content(world, Content::Values).is_empty() {
+            return Plan::absent("`reconstruct` is values: rays sample the scalars themselves");
+        }
         if makes.is_empty() {
             return Plan::absent("no volume is stated");
         }

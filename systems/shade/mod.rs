@@ -1,9 +1,9 @@
 //! `shade`: what every interesting voxel sends towards the observer, light by light (algorithm §3, Levoy 1988).
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Classify, Light, Material, OpacityUnit};
+use crate::components::{CastsShadow, Classify, Clip, Light, Material, OpacityUnit, Reconstruct};
 use crate::error::Error;
 use crate::light::shading::{Lamp, Lamps, Reflectance, lamps};
 use crate::polygon::may_hold::MayHold;
@@ -11,12 +11,16 @@ use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::{Bricks, EDGE};
 use crate::volume::classification::Classifier;
-use crate::volume::gradients::Gradients;
+use crate::volume::clipping::Cut;
+use crate::volume::gradients::{Gradients, normal};
 use crate::volume::grid::{Grid, Scalar, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::{LitColors, Opacity};
 use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
 use crate::with_scalars;
+
+/// Voxels under a cut that are shaded by its normal alone: those between which the opacity rises, and the next.
+const CUT_DEEP: f64 = 1.5;
 
 /// Makes the [`LitColors`] of every volume that is classified.
 pub struct Shade;
@@ -31,6 +35,7 @@ struct Inputs {
     tint: Option<Tint>,
     unit: OpacityUnit,
     lamps: Lamps,
+    clip: Option<Clip>,
     /// Whether ambient light is kept apart, for a depth cue.
     apart: bool,
 }
@@ -50,12 +55,17 @@ impl System for Shade {
             &'a OpacityUnit,
             Option<&'a Material>,
             Option<&'a Tint>,
+            Option<&'a Clip>,
+            Option<&'a Reconstruct>,
         );
         let watch = out.watch();
         let apart = observer::is_cued(world);
-        for (entity, scalars, grid, opacity, classify, unit, material, tint) in
+        for (entity, scalars, grid, opacity, classify, unit, material, tint, clip, reconstruct) in
             &mut world.query::<Volume>()
         {
+            if reconstruct == Some(&Reconstruct::Values) {
+                continue;
+            }
             let material = material.cloned().unwrap_or_default();
             let inputs = Inputs {
                 scalars: scalars.clone(),
@@ -66,6 +76,7 @@ impl System for Shade {
                 lamps: lamps(world, &Reflectance::from(&material)),
                 material,
                 tint: tint.cloned(),
+                clip: clip.cloned(),
                 apart,
             };
             out.derive(entity, inputs, |inputs| {
@@ -85,7 +96,7 @@ impl System for Shade {
         let makes: Vec<_> =
             with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v))).collect();
         if makes.is_empty() {
-            return Plan::absent("no volume of scalars states `classify`");
+            return Plan::absent("no volume of scalars is classified at its voxels");
         }
         Plan { makes, why: "a volume that is classified is shaded by the lights of the scene" }
     }
@@ -118,6 +129,11 @@ impl Inputs {
     ) -> Bricks<[f32; 3]> {
         let [nx, ny, _] = self.grid.size;
         let gradients = Gradients::new(&self.grid);
+        let cut = self.clip.as_ref().map(|clip| Cut::new(clip, &self.grid));
+        let sections = |normal: Vec3, voxel: [usize; 3]| {
+            let section = cut.as_ref().map(|cut| cut.under(voxel));
+            section.map_or(normal, |section| section.turned(normal, CUT_DEEP))
+        };
         with_scalars!(&self.scalars, values => self.opacity.voxels.map(|place, alpha, made| {
             if watch.check().is_err() {
                 return;
@@ -143,30 +159,10 @@ impl Inputs {
                         let tint = tint.colors[first + at];
                         color = color.lerp(tint.truncate(), tint.w);
                     }
-                    *made = light(color, normal(*slope)).to_array();
+                    let normal = sections(normal(*slope), [x + at, y, z]);
+                    *made = light(color, normal).to_array();
                 }
             }
         }))
-    }
-}
-
-/// N: the unit vector along which the scalars fall, out of what is dense; zero where they do not change.
-fn normal(gradient: [f32; 3]) -> Vec3 {
-    // In 64 bits no gradient of 32 bits is too short or too long to have a direction.
-    (-DVec3::from(gradient.map(f64::from))).normalize_or_zero().as_vec3()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_normal_has_length_one_however_steep_or_shallow_the_field() {
-        for length in [f32::MIN_POSITIVE / 1e6, 1e-20, 1.0, 1e30, f32::MAX / 2.0] {
-            let made = normal([0.0, length, 0.0]);
-            assert_eq!(made, Vec3::NEG_Y, "{length}");
-            assert!((normal([length, length, -length]).length() - 1.0).abs() < 1e-6);
-        }
-        assert_eq!(normal([0.0; 3]), Vec3::ZERO);
     }
 }

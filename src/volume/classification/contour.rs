@@ -1,6 +1,6 @@
 //! Isovalue contours: what is above `f_v`, or the region around it of Levoy 1988, clear at a distance stated in voxels.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::numbers::{opacity_in_range, square};
 use crate::components::{Color, Contour, Form};
@@ -23,9 +23,18 @@ struct Line {
 }
 
 impl Line {
+    /// Whether it has no thickness: it is where values cross it, and takes up no voxel.
+    #[inline]
+    fn is_surface(&self) -> bool {
+        self.squared_reach == 0.0
+    }
+
     /// α of this contour alone at scalar `f` and squared gradient `gg`; 0 for a NaN.
     #[inline]
     fn opacity(&self, f: f64, gg: f64) -> f64 {
+        if self.is_surface() {
+            return 0.0;
+        }
         let away = self.value - f;
         let (square, reach) = (away * away, self.squared_reach * gg);
         match self.form {
@@ -39,7 +48,28 @@ impl Line {
     }
 }
 
+/// A contour without thickness: a surface at a value, found between voxels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// f_v.
+    pub value: f32,
+    /// α_v of the surface itself, in 0..=1, however thick a slab it is met in.
+    pub opacity: f32,
+    /// Linear.
+    pub color: Vec3,
+}
+
 impl Contours {
+    /// Those without thickness.
+    pub fn surfaces(&self) -> Vec<Surface> {
+        let surface = |line: &Line| Surface {
+            value: line.value as f32,
+            opacity: line.opacity as f32,
+            color: line.color.as_vec3(),
+        };
+        self.0.iter().filter(|line| line.is_surface() && line.opacity > 0.0).map(surface).collect()
+    }
+
     /// Contours of a volume of opacity unit `unit`; those without a colour of their own take `color`.
     pub fn new(stated: &[Contour], color: DVec3, unit: f64) -> Self {
         let line = |contour: &Contour| {
@@ -48,7 +78,8 @@ impl Contours {
                 value: f64::from(contour.value),
                 opacity: opacity_in_range(contour.opacity),
                 squared_reach: reach * reach,
-                form: contour.form,
+                // What has no thickness is around its value alone.
+                form: if reach == 0.0 { Form::Around } else { contour.form },
                 color: contour.color.map_or(color, |Color(own)| own.as_dvec3()),
             }
         };

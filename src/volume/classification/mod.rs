@@ -12,6 +12,7 @@ use glam::{DVec3, Vec3};
 use crate::components::{Classify, Material};
 use crate::volume::ranges::Range;
 use contour::Contours;
+pub use contour::Surface;
 use mixture::Mixture;
 use numbers::fraction;
 use regions::Regions;
@@ -97,6 +98,15 @@ impl Classifier {
                 How::Transfer(transfer) => transfer.may_show(low, high, steepest),
                 How::Mixture(mixture) => mixture.may_show(low, high),
             }
+    }
+
+    /// The contours that have no thickness: no opacity is of them, they are met where values cross theirs.
+    #[must_use]
+    pub fn surfaces(&self) -> Vec<Surface> {
+        match &self.how {
+            How::Contours(contours) => contours.surfaces(),
+            _ => Vec::new(),
+        }
     }
 
     /// Whether the opacity depends on the gradient at all.

@@ -114,3 +114,13 @@ fn no_gradient_is_longer_than_the_spread_of_the_scalars_allows() {
         assert_eq!(gradients.at_most(0.0, [0; 3], SIZE), 0.0);
     }
 }
+
+#[test]
+fn a_normal_has_length_one_however_steep_or_shallow_the_field() {
+    for length in [f32::MIN_POSITIVE / 1e6, 1e-20, 1.0, 1e30, f32::MAX / 2.0] {
+        let made = normal([0.0, length, 0.0]);
+        assert_eq!(made, Vec3::NEG_Y, "{length}");
+        assert!((normal([length, length, -length]).length() - 1.0).abs() < 1e-6);
+    }
+    assert_eq!(normal([0.0; 3]), Vec3::ZERO);
+}

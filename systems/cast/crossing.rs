@@ -1,0 +1,124 @@
+//! Surfaces without thickness: where a ray crosses an isovalue within its slab, found on the reconstructed values themselves.
+
+use fearless_simd::Level;
+use glam::{DVec3, Vec3, Vec4};
+
+use super::lanes::LANES;
+use crate::view::composite::{Gathered, recolor, thicken};
+use crate::view::walk::{FRACTION_BITS, Tile};
+use crate::volume::field::{Field, Sampled, Spot};
+
+/// Bits behind the point of a place in a cell: exact in an f32.
+const PLACE_BITS: u32 = 24;
+/// Halvings of a stretch that holds a crossing, at the most: each is at least as good as the middle of the last two.
+const HALVINGS: usize = 12;
+
+/// The stretch of a ray that a sample stands for, from its beginning to its end: fixed-point voxel indices.
+pub struct Stretch {
+    from: [i64; 3],
+    to: [i64; 3],
+}
+
+impl Stretch {
+    /// That of a ray of a tile at sample `k`: it ends where the next one begins, to the last bit.
+    #[inline]
+    pub fn of(tile: &Tile, lane: usize, k: i64) -> Self {
+        let middle: [i64; 3] = std::array::from_fn(|axis| tile.place(axis, lane, k));
+        let half: [i64; 3] = std::array::from_fn(|axis| tile.step[axis][lane] >> 1);
+        let from = std::array::from_fn(|axis| middle[axis] - (tile.step[axis][lane] - half[axis]));
+        Self { from, to: std::array::from_fn(|axis| middle[axis] + half[axis]) }
+    }
+
+    /// The fixed-point index a part of the way along it, 0..=1.
+    #[inline]
+    pub fn at(&self, part: f64) -> [i64; 3] {
+        if part == 1.0 {
+            return self.to;
+        }
+        std::array::from_fn(|axis| {
+            self.from[axis] + ((self.to[axis] - self.from[axis]) as f64 * part) as i64
+        })
+    }
+}
+
+/// The spot of a fixed-point voxel index; before the grid it is the grid's first.
+#[inline]
+pub fn spot(place: [i64; 3]) -> Spot {
+    let cell = place.map(|place| (place >> FRACTION_BITS).max(0) as usize);
+    let part = place.map(|place| {
+        let part = place.max(0) >> (FRACTION_BITS - PLACE_BITS) & ((1 << PLACE_BITS) - 1);
+        part as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
+    });
+    Spot { cell, part }
+}
+
+/// The index of a place, in voxels.
+#[inline]
+pub fn index(place: [i64; 3]) -> DVec3 {
+    DVec3::from(place.map(|place| place as f64)) / (1_u64 << FRACTION_BITS) as f64
+}
+
+/// How far from its samples a stretch of any ray of a tile reaches, cells.
+pub fn reach(tile: &Tile) -> f64 {
+    // Steps are affine over the tile: the greatest is at a corner.
+    let corners = [0, 3, LANES - 4, LANES - 1];
+    let steps = (0..3).flat_map(|axis| corners.map(|lane| tile.step[axis][lane].unsigned_abs()));
+    (steps.max().unwrap_or(0) / 2 + 2) as f64 / (1_u64 << FRACTION_BITS) as f64
+}
+
+/// Where on a stretch a field takes a value, and what it is there; between two parts of it, at which it lies on both sides.
+pub fn crossing(
+    (field, level): (&Field, Level),
+    stretch: &Stretch,
+    value: f32,
+    ends: [(f64, f32); 2],
+) -> Option<(f64, Sampled)> {
+    let [(mut a, fa), (mut b, fb)] = ends;
+    let (mut fa, mut fb) = (f64::from(fa - value), f64::from(fb - value));
+    if (fa >= 0.0) == (fb >= 0.0) || !(fa - fb).is_finite() {
+        return None;
+    }
+    let (near, mut last) = (1e-6 * (fa - fb).abs(), 0);
+    let mut made = [Sampled::default()];
+    let mut part = a;
+    for _ in 0..HALVINGS {
+        // Where a straight line crosses; an end that stays twice counts half (Illinois), so that both come nearer.
+        part = (a * fb - b * fa) / (fb - fa);
+        field.sample(level, &[spot(stretch.at(part))], &mut made);
+        let f = f64::from(made[0].value - value);
+        if f.is_nan() || f.abs() <= near {
+            break;
+        }
+        if (f >= 0.0) == (fa >= 0.0) {
+            (a, fa) = (part, f);
+            fb *= if last == 1 { 0.5 } else { 1.0 };
+            last = 1;
+        } else {
+            (b, fb) = (part, f);
+            fa *= if last == 2 { 0.5 } else { 1.0 };
+            last = 2;
+        }
+    }
+    Some((part, made[0]))
+}
+
+/// The slab of some gel with surfaces in it, `ratio` opacity units thick: associated RGBA per opacity unit, of which it is
+/// made again by thickening. Surfaces are by the part of the slab that lies before them, each with colour and opacity.
+pub fn slab(gel: Vec4, surfaces: &mut [(f64, Vec3, f32)], ratio: f64) -> Vec4 {
+    surfaces.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut ray, mut passed) = (Gathered::NOTHING, 0.0);
+    let (color, opacity) = (gel.truncate().as_dvec3(), f64::from(gel.w));
+    let through = |ray: &mut Gathered, part: f64| {
+        let thick = thicken(opacity, part * ratio);
+        ray.under(color * recolor(opacity, thick, part * ratio), thick);
+    };
+    for &mut (part, color, opacity) in surfaces {
+        through(&mut ray, (part - passed).max(0.0));
+        ray.under(color.as_dvec3() * f64::from(opacity), f64::from(opacity));
+        passed = part;
+    }
+    through(&mut ray, (1.0 - passed).max(0.0));
+    let unit = thicken(ray.opacity(), 1.0 / ratio);
+    let color = ray.color * recolor(ray.opacity(), unit, 1.0 / ratio);
+    color.as_vec3().extend(unit as f32)
+}

@@ -1,0 +1,205 @@
+//! Values as rays meet them: interpolated, and classified, cut, shaded and shadowed at the sample (§8: "better reconstruction").
+
+use fearless_simd::Level;
+use glam::{DAffine3, DVec3, Vec3, Vec4};
+use hecs::Entity;
+
+use super::crossing::{self, Stretch, index, spot};
+use super::inputs::StatedValues;
+use super::lanes::{LANES, Lanes, each};
+use super::medium::Source;
+use crate::light::shading::{Lamp, Lamps, Reflectance};
+use crate::light::strength::LightStrength;
+use crate::view::composite::{recolor, thicken};
+use crate::view::walk::{FRACTION_BITS, Tile};
+use crate::volume::classification::{Classifier, Surface};
+use crate::volume::clipping::{Cut, Section};
+use crate::volume::field::{Field, Sampled, Spot};
+use crate::volume::gradients::normal;
+use crate::volume::grid::Grid;
+use crate::volume::pyramid::PyramidSlices;
+
+/// Voxels under a cut that are shaded by its normal alone: those of the slab that it is in.
+const CUT_DEEP: f64 = 0.5;
+
+/// The scalars of one volume, and how they look.
+pub struct Values<'a> {
+    field: Field<'a>,
+    /// Which cells may be seen; `None`: all.
+    pyramid: Option<PyramidSlices<'a>>,
+    index_to_world: DAffine3,
+    classifier: Classifier,
+    /// Contours without thickness.
+    surfaces: Vec<Surface>,
+    cut: Option<Cut>,
+    lamps: &'a Lamps,
+    how: Reflectance,
+    strengths: &'a [Option<LightStrength>],
+}
+
+impl<'a> Values<'a> {
+    /// What is stated of a volume on `grid` with opacity unit `unit`.
+    pub fn new(
+        stated: &'a StatedValues,
+        (grid, unit): (&Grid, f64),
+        pyramid: Option<PyramidSlices<'a>>,
+    ) -> Self {
+        let StatedValues { scalars, filter, classify, material, clip, lamps, strengths } = stated;
+        let classifier = Classifier::new(classify, material, unit);
+        Self {
+            surfaces: classifier.surfaces(),
+            classifier,
+            field: Field::new(scalars, grid, *filter),
+            pyramid,
+            index_to_world: grid.index_to_world,
+            cut: clip.as_ref().map(|clip| Cut::new(clip, grid)),
+            lamps,
+            how: Reflectance::from(material),
+            strengths,
+        }
+    }
+
+    /// The world point and the way of a ray from sample to sample.
+    fn world(&self, tile: &Tile, lane: usize, k: i64) -> [DVec3; 2] {
+        let place = index(tile.at_sample(lane, k));
+        let step = index(std::array::from_fn(|axis| tile.step[axis][lane]));
+        [self.index_to_world.transform_point3(place), self.index_to_world.matrix3 * step]
+    }
+
+    /// Associated RGBA per opacity unit; of its reflected part `fade` is left.
+    fn look(&self, sampled: &Sampled, ray: impl FnOnce() -> [DVec3; 2], fade: f32) -> Vec4 {
+        let Sampled { value, gradient } = *sampled;
+        let alpha = self.classifier.opacity(value, gradient);
+        if alpha <= 0.0 {
+            return Vec4::ZERO;
+        }
+        let color = self.classifier.color(value, gradient);
+        if self.cut.is_none() && self.strengths.iter().all(Option::is_none) {
+            let reflected = self.reflected(color, normal(gradient), DVec3::ZERO);
+            return self.lit(color, reflected, fade, alpha);
+        }
+        let [world, way] = ray();
+        let section = self.cut.as_ref().map(|cut| cut.at(world));
+        let normal = section.map_or(normal(gradient), |s| s.turned(normal(gradient), CUT_DEEP));
+        let whole = self.lit(color, self.reflected(color, normal, world), fade, alpha);
+        section.map_or(whole, |section| part_of(whole, section, way))
+    }
+
+    /// Which rays may meet something at a sample, or as far from it as surfaces are looked for.
+    fn near(&self, tile: &Tile, k: i64, lanes: Lanes) -> Lanes {
+        let Some(pyramid) = self.pyramid else { return lanes };
+        let shows = |lane: &usize| {
+            pyramid.shows(
+                tile.at_sample(*lane, k).map(|place| (place >> FRACTION_BITS).max(0) as usize),
+            )
+        };
+        let near = |reaching: usize, lane: usize| {
+            let cell = tile.at_sample(lane, k).map(|place| place >> FRACTION_BITS);
+            pyramid.is_near(reaching, cell) == Some(true)
+        };
+        let set = |set: Lanes, lane: usize| set | 1 << lane;
+        if self.surfaces.is_empty() {
+            return each(lanes).filter(shows).fold(0, set);
+        }
+        match PyramidSlices::reaching(crossing::reach(tile)) {
+            Some(reaching) => each(lanes).filter(|&lane| near(reaching, lane)).fold(0, set),
+            None => lanes,
+        }
+    }
+
+    /// Puts the surfaces that a ray crosses within a slab into what it sees there; `middle` is the value at its sample.
+    fn cross(
+        &self,
+        level: Level,
+        fade: f32,
+        (stretch, middle): (&Stretch, f32),
+        (seen, ratio): (&mut Vec4, f64),
+    ) {
+        let mut ends = [Sampled::default(); 2];
+        let spots = [0.0, 1.0].map(|part| spot(stretch.at(part)));
+        self.field.sample(level, &spots, &mut ends);
+        let values = [(0.0, ends[0].value), (0.5, middle), (1.0, ends[1].value)];
+        let mut met = Vec::new();
+        for surface in &self.surfaces {
+            for half in values.windows(2) {
+                let field = (&self.field, level);
+                let Some((part, sampled)) =
+                    crossing::crossing(field, stretch, surface.value, [half[0], half[1]])
+                else {
+                    continue;
+                };
+                let place = index(stretch.at(part));
+                let world = self.index_to_world.transform_point3(place);
+                if self.cut.as_ref().is_none_or(|cut| cut.at(world).inside >= 0.0) {
+                    let reflected = self.reflected(surface.color, normal(sampled.gradient), world);
+                    let color = surface.color * self.how.ambient + reflected * fade;
+                    met.push((part, color, surface.opacity));
+                }
+            }
+        }
+        if !met.is_empty() {
+            *seen = crossing::slab(*seen, &mut met, ratio);
+        }
+    }
+
+    /// What comes back of all lights.
+    fn reflected(&self, color: Vec3, normal: Vec3, world: DVec3) -> Vec3 {
+        let of = |lamp: &Lamp| lamp.reflected(color, normal, &self.how);
+        let plain: Vec3 = self.lamps.plain.iter().map(of).sum();
+        let lights = self.lamps.shadowed.iter().zip(self.strengths);
+        lights.fold(plain, |sum, ((_, lamp), strength): (&(Entity, Lamp), _)| {
+            let beta = strength.as_ref().map_or(1.0, |strength| {
+                strength.at(world + lamp.toward.as_dvec3() * strength.bias())
+            });
+            sum + of(lamp) * beta
+        })
+    }
+
+    fn lit(&self, color: Vec3, reflected: Vec3, fade: f32, alpha: f32) -> Vec4 {
+        ((color * self.how.ambient + reflected * fade) * alpha).extend(alpha)
+    }
+}
+
+/// What a cut leaves of a slab, as a thinner one of the whole.
+fn part_of(whole: Vec4, section: Section, way: DVec3) -> Vec4 {
+    let left = section.left(way);
+    if left >= 1.0 {
+        return whole;
+    }
+    let opacity = f64::from(whole.w);
+    let thin = thicken(opacity, left);
+    (whole.truncate() * recolor(opacity, thin, left) as f32).extend(thin as f32)
+}
+
+impl Source for Values<'_> {
+    fn reach(&self, tile: &Tile) -> f64 {
+        if self.surfaces.is_empty() { 0.0 } else { crossing::reach(tile) }
+    }
+
+    fn meet(
+        &self,
+        level: Level,
+        fade: Option<f32>,
+        tile: &Tile,
+        (k, lanes): (i64, Lanes),
+        (seen, ratios): (&mut [Vec4; LANES], &[f64; LANES]),
+    ) -> Lanes {
+        let fade = fade.unwrap_or(1.0);
+        let met = self.near(tile, k, lanes);
+        let mut sampled = [Sampled::default(); LANES];
+        let mut spots = [Spot::default(); LANES];
+        let middles = each(met).map(|lane| spot(tile.at_sample(lane, k)));
+        let found = spots.iter_mut().zip(middles).map(|(made, spot)| *made = spot).count();
+        self.field.sample(level, &spots[..found], &mut sampled);
+        for (lane, sampled) in each(met).zip(&sampled) {
+            seen[lane] = self.look(sampled, || self.world(tile, lane, k), fade);
+        }
+        if !self.surfaces.is_empty() {
+            for (lane, sampled) in each(met).zip(&sampled) {
+                let stretch = Stretch::of(tile, lane, k);
+                self.cross(level, fade, (&stretch, sampled.value), (&mut seen[lane], ratios[lane]));
+            }
+        }
+        met
+    }
+}
