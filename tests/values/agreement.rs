@@ -26,8 +26,7 @@ fn where_nothing_changes_values_and_colors_look_alike() {
     let volume = carrier::<Reconstruct>(&colors);
     colors.remove_one::<Reconstruct>(volume).unwrap();
     let colors = rendered(&mut colors).picture;
-    // Of a spline's coefficients, which are rounded, a constant has a gradient of rounding, by which it is shaded.
-    for filter in [Filter::Linear, Filter::Cubic, Filter::CatmullRom] {
+    for filter in FILTERS {
         let mut values = world(block(), classify.clone(), (view(), every_pixel(filter, 0.7)));
         let values = rendered(&mut values).picture;
         let pairs = colors.pixels.iter().flatten().zip(values.pixels.iter().flatten());
