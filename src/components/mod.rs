@@ -8,6 +8,7 @@ mod clip;
 pub mod color;
 pub mod direction;
 mod furniture;
+mod knobs;
 mod labels;
 mod light;
 mod material;
@@ -28,6 +29,7 @@ pub use classify::{
 pub use clip::Clip;
 pub use color::Color;
 pub use furniture::{BoundingBox, Callout, Corner, Legend, LegendEntry, ScaleBar, Title};
+pub use knobs::{Bound, KNOBS, Knob, NO_KNOBS, Setting};
 pub use labels::{Label, Labels};
 pub use light::{CastsShadow, Light, Observer, Shaft, Toward};
 pub use material::{DepthCue, Material};

@@ -1,4 +1,4 @@
-//! `sampling`: where speed is traded for accuracy; each key is a knob that `trade` sweeps.
+//! `sampling`: where speed is traded for accuracy; each key is a [knob](super::KNOBS).
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -54,24 +54,6 @@ impl Default for Sampling {
             texel: TexelKind::Auto,
             filter: Filter::Linear,
             pixel_filter: PixelFilter::Box,
-        }
-    }
-}
-
-impl Sampling {
-    /// The settings of `--exact`: no stopping, a ray at every position, 32-bit texels; Δ as it was.
-    ///
-    /// What is lossless stays as stated: `skip` steps over empty space to the very same bytes.
-    #[must_use]
-    pub fn exact(&self) -> Self {
-        Self {
-            stop_at: 0.0,
-            tolerance: 0.0,
-            edge_tolerance: 0.0,
-            coarsest: 1,
-            finest: 1,
-            texel: TexelKind::F32,
-            ..self.clone()
         }
     }
 }

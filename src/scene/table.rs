@@ -16,9 +16,9 @@ use super::check::Check;
 use super::error::Fault;
 use super::grammar;
 use crate::components::{
-    Animate, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Labels, Legend, Level,
-    Light, Material, Mesh, Molecule, Polygon, Projection, Projects, Sampling, ScaleBar, Shaft,
-    Surface, Texture, Textured, Title, View, Volume, Voxelize,
+    Animate, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, KNOBS, Labels, Legend,
+    Level, Light, Material, Mesh, Molecule, Polygon, Projection, Projects, Sampling, ScaleBar,
+    Setting, Shaft, Surface, Texture, Textured, Title, View, Volume, Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -199,7 +199,11 @@ pub fn schema() -> Json {
     let mut dependent = serde_json::Map::new();
     properties.insert("name".to_owned(), json!({ "type": "string", "minLength": 1 }));
     for row in &COMPONENTS {
-        properties.insert(row.key.to_owned(), row.schema().clone());
+        let mut schema = row.schema().clone();
+        if row.key == "sampling" {
+            tell_knobs(&mut schema);
+        }
+        properties.insert(row.key.to_owned(), schema);
         if !row.is_noun() {
             let choices: Vec<_> = row.with.iter().map(|key| json!({ "required": [key] })).collect();
             dependent.insert(row.key.to_owned(), json!({ "anyOf": choices }));
@@ -219,4 +223,25 @@ pub fn schema() -> Json {
             "dependentSchemas": dependent,
         }}}
     })
+}
+
+/// What the table of knobs says of each: its range as examples, its promise in the description.
+fn tell_knobs(schema: &mut Json) {
+    for knob in &KNOBS {
+        let Some(key) = schema.pointer_mut(&format!("/properties/{}", knob.key)) else { continue };
+        let said = key.get("description").and_then(Json::as_str).unwrap_or_default();
+        let description = format!("{said} {}", knob.promise);
+        key["description"] = json!(description.trim());
+        let settings = knob.range.iter().filter_map(|setting| match setting {
+            Setting::Times(_) => None,
+            Setting::Number(number) => number.to_string().parse::<f64>().ok().map(Json::from),
+            Setting::Positions(positions) => Some(json!(positions)),
+            Setting::Truth(truth) => Some(json!(truth)),
+            Setting::Skip(_) | Setting::Texel(_) => Some(json!(setting.to_string())),
+        });
+        let settings: Vec<Json> = settings.collect();
+        if !settings.is_empty() {
+            key["examples"] = json!(settings);
+        }
+    }
 }

@@ -3,6 +3,7 @@
 mod adaptive;
 mod ball;
 mod beside;
+mod bounds;
 mod closed_forms;
 mod colors;
 mod convergence;
