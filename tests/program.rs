@@ -24,6 +24,8 @@ mod render;
 mod sentences;
 #[path = "program/spared.rs"]
 mod spared;
+#[path = "program/trade.rs"]
+mod trade;
 
 use std::fs;
 use std::path::{Path, PathBuf};

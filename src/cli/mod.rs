@@ -17,6 +17,7 @@ mod excerpt;
 mod failure;
 mod flags;
 mod frame_progress;
+mod goal;
 mod info;
 mod info_picture;
 mod interrupt;
@@ -41,6 +42,10 @@ mod stats;
 mod table;
 mod target;
 mod trace;
+mod trade;
+mod trade_page;
+mod trade_points;
+mod trade_scene;
 mod verb_first;
 
 use std::ffi::OsString;
@@ -60,6 +65,7 @@ Examples:
   gelray render -o big.png --size 1520x1520 --set observer.view.azimuth=60
   gelray animate -o turn.gif                         a full turn
   gelray plan scene.toml                             what would run, and how many bytes it takes
+  gelray trade scene.toml -o trade --target psnr=45  what each knob costs and buys, and the fastest that keeps 45 dB
   gelray compare fast.png exact.png -o where.png     how far two images are apart, and where
 
 Exit codes: 0 done, 1 failed, 2 misused, 130 interrupted.
@@ -103,6 +109,14 @@ enum Verb {
         #[arg(long, value_name = "RATE", value_parser = gelray::formats::moving::Rate::parse)]
         fps: Option<gelray::formats::moving::Rate>,
     },
+    /// Measures what each knob of accuracy costs and buys; picks the settings that keep a target
+    #[command(after_help = trade::EXAMPLES)]
+    Trade {
+        /// A scene file, the name of an embedded scene, or a volume [default: head]
+        scene: Option<OsString>,
+        #[command(flatten)]
+        trading: trade::Trading,
+    },
     /// Tells which systems would run, which not and why, and how many bytes they take
     Plan {
         /// A scene file, the name of an embedded scene, or a volume [default: head]
@@ -137,10 +151,11 @@ enum Verb {
 }
 
 /// The flags that each verb has a use for, beside those of all: what its help lists.
-const TAKES: [(&str, &[&str]); 9] = [
+const TAKES: [(&str, &[&str]); 10] = [
     ("render", render::TAKES),
     ("animate", animate::TAKES),
     ("assemble", assemble::TAKES),
+    ("trade", trade::TAKES),
     ("plan", plan::TAKES),
     ("compare", compare::TAKES),
     ("info", info::TAKES),
@@ -193,6 +208,7 @@ fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
         Verb::Render { scene, progressive } => render::run(scene.as_deref(), &progressive, flags),
         Verb::Animate { scene, motion } => animate::run(scene.as_deref(), &motion, flags),
         Verb::Assemble { frames, fps } => assemble::run(&frames, fps, flags),
+        Verb::Trade { scene, trading } => trade::run(scene.as_deref(), &trading, flags),
         Verb::Plan { scene } => plan::run(scene.as_deref(), flags),
         Verb::Compare { a, b } => compare::run(&a, &b, flags),
         Verb::Info { file } => info::run(&file, flags),

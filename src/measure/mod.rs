@@ -4,9 +4,11 @@ pub mod cost;
 #[cfg(feature = "cli")]
 pub mod cost_table;
 pub mod error;
+pub mod front;
 pub mod histogram;
 mod isovalues;
 pub mod kind;
+pub mod paired;
 pub mod sigma;
 mod ssim;
 pub mod stopwatch;
