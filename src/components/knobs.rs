@@ -86,8 +86,9 @@ impl Knob {
     }
 }
 
-/// The keys of `sampling` that are no knobs, and why: `pixel_filter` says what a pixel is, not how well it is known.
-pub const NO_KNOBS: [&str; 1] = ["pixel_filter"];
+/// The keys of `sampling` that are no knobs, and why: `filter` says what lies between voxels and `pixel_filter` what a pixel
+/// is, not how well these are known.
+pub const NO_KNOBS: [&str; 2] = ["filter", "pixel_filter"];
 
 /// A bound's half step, for 16 and 8 bits: of the color, and of the opacity that veils what lies behind.
 const HALF_STEPS: [f64; 2] = [2.0 / 131_072.0, 2.0 / 512.0];
