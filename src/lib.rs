@@ -98,6 +98,9 @@
 //! polygon over the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample`
 //! ([`view::resampling`]) integrates the sample array to the picture, and [`formats::pictures`] writes it.
 //!
+//! What lies over the picture, such as titles, scale bars and legends, `furnish` lays on it at its own resolution; boxes and
+//! leader lines are polygons in the gel.
+//!
 //! For whoever looks on ([`view::viewer`]) `preview` hands out what is known so far: a few coarse pictures first, then each
 //! level of the refinement, and rows of a level that is not done; the rays of the final picture are the same with and without.
 //!
