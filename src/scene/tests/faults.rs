@@ -78,7 +78,7 @@ fn numbers_out_of_their_range_are_pointed_at() {
         (VOLUME, "material = { diffuse = nan }", "finite"),
         (VOLUME, "material = { shininess = 1e300 }", "finite"),
         (VOLUME, "classify = { iso = [{ value = 1, opacity = -0.1 }] }", "at least 0"),
-        (VOLUME, "classify = { iso = [{ value = 1, thickness_voxels = 0 }] }", "above 0"),
+        (VOLUME, "classify = { iso = [{ value = 1, thickness_voxels = -1 }] }", "at least 0"),
         (VIEW, "sampling = { distance_mm = 0 }", "above 0"),
         (VIEW, "sampling = { stop_at = 1 }", "below 1"),
         (VIEW, "sampling = { coarsest = 3 }", "1, 2, 4, 8, 16 or 32"),
