@@ -7,6 +7,7 @@ use gelray::components::{Name, Sampling, View};
 use gelray::schedule::{Job, Plan, Schedule};
 use gelray::systems::JOBS;
 use gelray::view::extent::Extent;
+use gelray::volume::grid::smallest_spacing;
 use gelray::volume::scene_volumes::visible;
 use hecs::World;
 
@@ -34,8 +35,7 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
 
 /// How many samples the view's rays can take, were nothing empty: a scene without a volume takes none.
 fn samples(world: &World) -> Option<String> {
-    let smallest =
-        visible(world).iter().map(|v| v.grid.spacing().min_element()).reduce(f64::min)?;
+    let smallest = smallest_spacing(visible(world).iter().map(|volume| volume.grid))?;
     let mut views = world.query::<(&View, &Sampling, &Extent)>();
     let (view, sampling, extent) = views.iter().next()?;
     let distance = sampling.distance_mm.unwrap_or(smallest);

@@ -61,13 +61,13 @@ pub fn run(scene: Option<&OsStr>, trading: &Trading, flags: &Flags) -> Result<()
     let interrupt = Interrupt::listen();
     let scene = render::load(&source, flags)?;
     make(folder)?;
-    let mut traded = TradeScene::new(scene, trading.views)?;
-    bound::check_memory(&traded.schedule, &traded.scene.world, flags)?;
+    let mut traded = TradeScene::new(scene, trading.views, &interrupt.watch)?;
+    bound::check_memory(traded.renderer.schedule(), &traded.scene.world, flags)?;
     interrupt.work_begins();
     let known = if trading.resume { known(folder, &traded)? } else { None };
-    let trade = measure(&mut traded, folder, known, (trading, &interrupt, flags))?;
+    let trade = measure(&mut traded, folder, known, (trading, flags))?;
     write_text(folder, "trade.csv", &csv(&trade))?;
-    show(&mut traded, &trade, folder, &interrupt)?;
+    show(&mut traded, &trade, folder)?;
     write_text(folder, "index.html", &page(&trade))?;
     if !flags.quiet {
         let front = on_front(&trade.points).len();
@@ -129,11 +129,10 @@ fn measure(
     traded: &mut TradeScene,
     folder: &Path,
     known: Option<Trade>,
-    (trading, interrupt, flags): (&Trading, &Interrupt, &Flags),
+    (trading, flags): (&Trading, &Flags),
 ) -> Result<Trade, Failure> {
     say(flags, format_args!("the reference: every position, a quarter of the sample distance"));
-    let reference_rmse =
-        traded.find_references(&interrupt.watch, known.as_ref().map(|k| k.reference_rmse))?;
+    let reference_rmse = traded.find_references(known.as_ref().map(|k| k.reference_rmse))?;
     let mut trade = Trade {
         version: VERSION.to_owned(),
         scene: traded.scene.name.clone(),
@@ -146,9 +145,9 @@ fn measure(
     };
     let known = known.map(|known| known.points).unwrap_or_default();
     let singles = singles(&traded.base, traded.distance);
-    all(traded, (singles, &known), (&mut trade, folder), (trading, interrupt, flags))?;
+    all(traded, (singles, &known), (&mut trade, folder), (trading, flags))?;
     let combined = combinations(&trade.points, trading.combinations as usize);
-    all(traded, (combined, &known), (&mut trade, folder), (trading, interrupt, flags))?;
+    all(traded, (combined, &known), (&mut trade, folder), (trading, flags))?;
     Ok(trade)
 }
 
@@ -157,7 +156,7 @@ fn all(
     traded: &mut TradeScene,
     (choices, known): (Vec<Choice>, &[Point]),
     (trade, folder): (&mut Trade, &Path),
-    (trading, interrupt, flags): (&Trading, &Interrupt, &Flags),
+    (trading, flags): (&Trading, &Flags),
 ) -> Result<(), Failure> {
     let count = choices.len();
     for (at, choice) in choices.into_iter().enumerate() {
@@ -170,7 +169,7 @@ fn all(
                 }
                 point.clone()
             }
-            None => traded.measure(choice, trading.repeat, &interrupt.watch)?,
+            None => traded.measure(choice, trading.repeat)?,
         });
         let text = serde_json::to_string_pretty(&trade)
             .map_err(|error| Failure::Said(format!("trade.json cannot be written ({error})")))?;
@@ -180,16 +179,10 @@ fn all(
 }
 
 /// Pictures of the choices on the front, and where they are off.
-fn show(
-    traded: &mut TradeScene,
-    trade: &Trade,
-    folder: &Path,
-    interrupt: &Interrupt,
-) -> Result<(), Failure> {
+fn show(traded: &mut TradeScene, trade: &Trade, folder: &Path) -> Result<(), Failure> {
     make(&folder.join("pictures"))?;
     for at in on_front(&trade.points) {
-        let [picture, difference] =
-            traded.pictures(&trade.points[at].sampling, &interrupt.watch)?;
+        let [picture, difference] = traded.pictures(&trade.points[at].sampling)?;
         for (end, picture) in [("", &picture), ("_off", &difference)] {
             write_picture(&folder.join(format!("pictures/{at}{end}.png")), picture, &[])?;
         }

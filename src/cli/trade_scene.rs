@@ -1,16 +1,18 @@
 //! The scene that `trade` measures: its frames by one choice of settings after the other, in one world.
 
-use gelray::Error;
+use std::sync::Arc;
+
+use gelray::Renderer;
 use gelray::components::{Sampling, View};
 use gelray::measure::cost::FRAME;
 use gelray::measure::error::{Difference, compare};
 use gelray::measure::paired::ratio_of_pairs;
 use gelray::scene::Scene;
-use gelray::schedule::{Schedule, Watch};
-use gelray::systems::JOBS;
-use gelray::view::picture::{Frame, Picture};
-use gelray::view::samples::{Counts, Samples};
+use gelray::schedule::Watch;
+use gelray::view::picture::Picture;
+use gelray::view::samples::Counts;
 use gelray::volume::gel::{Gel, GelBricks};
+use gelray::volume::grid::smallest_spacing;
 use gelray::volume::scene_volumes::visible;
 
 use super::failure::Failure;
@@ -19,7 +21,7 @@ use super::trade_points::{Choice, Point};
 /// A scene, and its view's settings and references.
 pub struct TradeScene {
     pub scene: Scene,
-    pub schedule: Schedule,
+    pub renderer: Renderer,
     /// What the scene states.
     pub base: Sampling,
     /// Δ, world units: stated, or the smallest voxel spacing.
@@ -33,21 +35,19 @@ pub struct TradeScene {
 }
 
 impl TradeScene {
-    /// The scene as it was loaded.
-    pub fn new(scene: Scene, views: u32) -> Result<Self, Failure> {
+    /// The scene as it was loaded; `watch` stops its frames.
+    pub fn new(scene: Scene, views: u32, watch: &Arc<Watch>) -> Result<Self, Failure> {
         let missing = || Failure::Said("the scene has no view; state one".to_owned());
-        let smallest = visible(&scene.world).into_iter().map(|v| v.grid.spacing().min_element());
-        let smallest = smallest.fold(f64::INFINITY, f64::min);
+        let smallest = smallest_spacing(visible(&scene.world).into_iter().map(|v| v.grid));
         let (base, azimuth) = {
             let mut views = scene.world.query::<(&View, &Sampling)>();
             let (view, sampling) = views.iter().next().ok_or_else(missing)?;
             (sampling.clone(), view.azimuth)
         };
-        let distance =
-            base.distance_mm.unwrap_or(if smallest.is_finite() { smallest } else { 1.0 });
+        let distance = base.distance_mm.or(smallest).unwrap_or(1.0);
         let base = Sampling { distance_mm: Some(distance), ..base };
-        let (schedule, references) = (Schedule::new(JOBS)?, Vec::new());
-        Ok(Self { scene, schedule, base, distance, views, milliseconds: 0.0, azimuth, references })
+        let (renderer, references) = (Renderer::watched(Arc::clone(watch))?, Vec::new());
+        Ok(Self { scene, renderer, base, distance, views, milliseconds: 0.0, azimuth, references })
     }
 
     /// Pixels across and down.
@@ -56,16 +56,16 @@ impl TradeScene {
     }
 
     /// Renders the references; their root-mean-square difference to finer ones, unless it is known, the worst of all views.
-    pub fn find_references(&mut self, watch: &Watch, known: Option<f64>) -> Result<f64, Failure> {
+    pub fn find_references(&mut self, known: Option<f64>) -> Result<f64, Failure> {
         let mut worst = known.unwrap_or(0.0);
         for view in 0..self.views {
             let [quarter, eighth] = [0.25, 0.125].map(|part| Sampling {
                 distance_mm: Some(self.distance * part),
                 ..self.base.exact()
             });
-            let reference = self.frame(view, &quarter, watch)?.picture;
+            let reference = self.frame(view, &quarter)?.picture;
             if known.is_none() {
-                let finer = self.frame(view, &eighth, watch)?.picture;
+                let finer = self.frame(view, &eighth)?.picture;
                 worst = f64::max(worst, off(&reference, &finer)?.linear.rmse);
             }
             self.references.push(reference);
@@ -78,7 +78,6 @@ impl TradeScene {
         &mut self,
         (name, knobs, sampling): Choice,
         repeat: u32,
-        watch: &Watch,
     ) -> Result<Point, Failure> {
         let is_base = sampling == self.base;
         // Frames of equal settings in a row would be kept, and take no time.
@@ -88,8 +87,8 @@ impl TradeScene {
         let (mut pairs, mut counts) = (Vec::new(), Counts::default());
         let mut worst: Option<Difference> = None;
         for (round, view) in turns {
-            let before = self.frame(view, &beside, watch)?.seconds;
-            let made = self.frame(view, &sampling, watch)?;
+            let before = self.frame(view, &beside)?.seconds;
+            let made = self.frame(view, &sampling)?;
             pairs.push([if is_base { made.seconds } else { before }, made.seconds]);
             if round == 0 {
                 counts += made.counts;
@@ -125,12 +124,8 @@ impl TradeScene {
     }
 
     /// The picture of the first view by some settings, and where it is off.
-    pub fn pictures(
-        &mut self,
-        sampling: &Sampling,
-        watch: &Watch,
-    ) -> Result<[Picture; 2], Failure> {
-        let picture = self.frame(0, sampling, watch)?.picture;
+    pub fn pictures(&mut self, sampling: &Sampling) -> Result<[Picture; 2], Failure> {
+        let picture = self.frame(0, sampling)?.picture;
         let difference = off(&picture, &self.references[0])?.worst;
         Ok([picture, difference])
     }
@@ -141,20 +136,16 @@ impl TradeScene {
     }
 
     /// A frame of one of the views.
-    fn frame(&mut self, view: u32, sampling: &Sampling, watch: &Watch) -> Result<Timed, Failure> {
+    fn frame(&mut self, view: u32, sampling: &Sampling) -> Result<Timed, Failure> {
         let world = &mut self.scene.world;
         for (stated, own) in world.query_mut::<(&mut View, &mut Sampling)>() {
             stated.azimuth = self.azimuth + 360.0 * f64::from(view) / f64::from(self.views);
             *own = sampling.clone();
         }
-        let ran = self.schedule.run(world, watch)?;
-        watch.check()?;
-        let frame = ran.iter().filter(|ran| FRAME.contains(&ran.name));
+        let made = self.renderer.render(world)?;
+        let frame = made.ran.iter().filter(|ran| FRAME.contains(&ran.name));
         let seconds = frame.map(|ran| ran.seconds).sum();
-        let mut made = world.query::<(&Frame, &Samples)>();
-        let missing = || Error::Schedule("no system made a picture of the view".to_owned());
-        let (frame, samples) = made.iter().next().ok_or_else(missing)?;
-        Ok(Timed { picture: frame.0.clone(), counts: samples.0.counts, seconds })
+        Ok(Timed { picture: made.picture, counts: made.samples.counts, seconds })
     }
 }
 

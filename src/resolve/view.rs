@@ -10,7 +10,7 @@ use super::order::spawn;
 use crate::components::{DepthCue, Light, Sampling, TexelKind, View};
 use crate::polygon::face::Faces;
 use crate::view::extent::Extent;
-use crate::volume::grid::Grid;
+use crate::volume::grid::{Grid, smallest_spacing};
 use crate::volume::scene_volumes::visible;
 
 /// On the view that was added because none was stated; it goes when one is.
@@ -75,11 +75,12 @@ const MOST_SAMPLES: f64 = (1 << 20) as f64;
 /// Refuses a sample distance at which a ray has more than [`MOST_SAMPLES`].
 fn check_distance(world: &World, view: Entity, extent: Extent) -> Result<(), Fault> {
     let volumes = visible(world);
-    let smallest =
-        volumes.iter().map(|v| v.grid.spacing().min_element()).fold(f64::INFINITY, f64::min);
+    let Some(smallest) = smallest_spacing(volumes.iter().map(|volume| volume.grid)) else {
+        return Ok(());
+    };
     let stated = get::<Sampling>(world, view).and_then(|sampling| sampling.distance_mm);
     let samples = extent.samples(stated.unwrap_or(smallest));
-    if volumes.is_empty() || samples <= MOST_SAMPLES {
+    if samples <= MOST_SAMPLES {
         return Ok(());
     }
     let most = MOST_SAMPLES;

@@ -212,6 +212,12 @@ impl Scalars {
     }
 }
 
+/// The smallest spacing of some grids, world units: how far samples are apart where nothing is stated; `None` without a grid.
+#[must_use]
+pub fn smallest_spacing(grids: impl IntoIterator<Item = Grid>) -> Option<f64> {
+    grids.into_iter().map(|grid| grid.spacing().min_element()).reduce(f64::min)
+}
+
 impl Painted {
     /// Number of voxels.
     #[must_use]

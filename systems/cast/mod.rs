@@ -50,6 +50,7 @@ use crate::view::viewer::Viewer;
 use crate::view::walk::Walk;
 use crate::volume::coefficients::Coefficients;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
+use crate::volume::grid::smallest_spacing;
 use crate::volume::pyramid::{Pyramid, PyramidSlices};
 use crate::volume::ranges::Ranges;
 use adaptive::Refinement;
@@ -117,12 +118,9 @@ fn layout(view: &View, sampling: &Sampling) -> Layout {
 
 /// Δ: as stated, else the smallest spacing of any volume; without a volume it makes no difference.
 fn distance(inputs: &Inputs) -> f64 {
-    let grids = inputs.volumes.iter().map(|volume| &volume.grid);
-    let grids = grids.chain(inputs.projections.iter().map(|volume| &volume.grid));
-    let spacings = grids.map(|grid| grid.spacing().min_element());
-    let smallest = spacings.fold(f64::INFINITY, f64::min);
-    let smallest = if smallest.is_finite() { smallest } else { inputs.extent.radius() };
-    inputs.sampling.distance_mm.unwrap_or(smallest)
+    let grids = inputs.volumes.iter().map(|volume| volume.grid);
+    let smallest = smallest_spacing(grids.chain(inputs.projections.iter().map(|v| v.grid)));
+    inputs.sampling.distance_mm.or(smallest).unwrap_or(inputs.extent.radius())
 }
 
 /// Whom a view's rays are cast for: who asks how far they are, and who looks on.
