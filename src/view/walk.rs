@@ -8,6 +8,8 @@ use crate::volume::grid::Grid;
 
 /// Bits of a voxel index behind the point.
 pub const FRACTION_BITS: u32 = 40;
+/// Bits of a place in a cell that are looked at: exact in an f32.
+pub const PLACE_BITS: u32 = 24;
 const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
 /// Rays along the side of a tile.
 pub const SIDE: usize = 4;
@@ -219,6 +221,13 @@ impl Tile {
     pub fn is_empty(&self) -> bool {
         self.some[0] >= self.some[1]
     }
+}
+
+/// A fixed-point way through a cell, 0..=1 of it, as a number.
+#[must_use]
+#[inline]
+pub fn part(way: i64) -> f32 {
+    (way >> (FRACTION_BITS - PLACE_BITS)) as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
 }
 
 /// At which steps from the middle some of a bundle of rays may be in the grid, and all are for certain.

@@ -5,13 +5,14 @@ use glam::{DVec3, Vec3, Vec4};
 
 use super::lanes::LANES;
 use crate::view::composite::{Gathered, recolor, thicken};
-use crate::view::walk::{FRACTION_BITS, Tile};
+use crate::view::walk::{FRACTION_BITS, Tile, part};
 use crate::volume::field::{Field, Sampled, Spot};
 
-/// Bits behind the point of a place in a cell: exact in an f32.
-const PLACE_BITS: u32 = 24;
 /// Halvings of a stretch that holds a crossing, at the most: each is at least as good as the middle of the last two.
 const HALVINGS: usize = 12;
+
+/// What a ray crosses within a slab: the part of the slab before it, its colour and its opacity.
+pub type Crossings = Vec<(f64, Vec3, f32)>;
 
 /// The stretch of a ray that a sample stands for, from its beginning to its end: fixed-point voxel indices.
 pub struct Stretch {
@@ -45,10 +46,7 @@ impl Stretch {
 #[inline]
 pub fn spot(place: [i64; 3]) -> Spot {
     let cell = place.map(|place| (place >> FRACTION_BITS).max(0) as usize);
-    let part = place.map(|place| {
-        let part = place.max(0) >> (FRACTION_BITS - PLACE_BITS) & ((1 << PLACE_BITS) - 1);
-        part as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
-    });
+    let part = place.map(|place| part(place.max(0) & ((1 << FRACTION_BITS) - 1)));
     Spot { cell, part }
 }
 

@@ -9,12 +9,10 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f32x4, f32x8, u32x16};
 use glam::Vec4;
 
 use super::lanes::{LANES, Lanes, each};
-use crate::view::walk::{FRACTION_BITS, Tile};
+use crate::view::walk::{FRACTION_BITS, PLACE_BITS, Tile};
 use crate::volume::gel::{CELLS, EMPTY, ROW, TEXELS, Texel, TexelSlices};
 use crate::volume::pyramid::PyramidSlices;
 
-/// Bits behind the point of a place in a cell: exact in an f32.
-const PLACE_BITS: u32 = 24;
 /// Bits of a place in a brick.
 const BRICK_BITS: u32 = CELLS.trailing_zeros();
 

@@ -3,6 +3,7 @@
 use fearless_simd::{Level, dispatch};
 use glam::{DVec3, Vec4};
 
+use super::crossing::Crossings;
 use super::cue::Cue;
 use super::kernel;
 use super::lanes::{LANES, Lanes, Packet};
@@ -19,14 +20,15 @@ use crate::volume::pyramid::{BLOCK, PyramidSlices};
 /// What a volume is at samples: gel, or values that are classified there.
 pub trait Source: Sync {
     /// Which of `lanes` (all inside the grid) meet anything at sample `k`, and what: associated RGBA per opacity unit; of its
-    /// reflected part `fade` is left, and slabs are so many opacity units thick. No bit depends on the `level` of instructions.
+    /// reflected part `fade` is left, slabs are so many opacity units thick, and there is room for what rays cross. No bit
+    /// depends on the `level` of instructions.
     fn meet(
         &self,
         level: Level,
         fade: Option<f32>,
         tile: &Tile,
         sample: (i64, Lanes),
-        seen_and_ratios: (&mut [Vec4; LANES], &[f64; LANES]),
+        seen_ratios_and_room: (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes;
 
     /// How far from its samples it is looked for, cells; no bit of what is empty as far as that may be missed.
@@ -43,7 +45,7 @@ impl<T: Texel> Source for kernel::Gel<'_, T> {
         fade: Option<f32>,
         tile: &Tile,
         sample: (i64, Lanes),
-        (seen, _): (&mut [Vec4; LANES], &[f64; LANES]),
+        (seen, ..): (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes {
         dispatch!(level, simd => kernel::meet(simd, *self, fade, tile, sample, seen))
     }
@@ -80,6 +82,8 @@ pub struct Entered {
     pub seen: [Vec4; LANES],
     /// The slab's thickness along each ray against the opacity unit.
     ratios: [f64; LANES],
+    /// Room for what a ray crosses.
+    crossings: Crossings,
     packet: Option<Packet>,
     bundle: Bundle,
     /// The sample that may meet gel, as far as was sought.
@@ -208,8 +212,8 @@ impl<S: Source> Media for Medium<'_, S> {
                 & lanes;
         }
         let fade = self.cue.map(|cue| cue.factor((k as f64 + 0.5) * self.distance) as f32);
-        let Entered { tile, seen, ratios, .. } = entered;
-        let met = self.source.meet(self.level, fade, tile, (k, there), (seen, ratios));
+        let Entered { tile, seen, ratios, crossings, .. } = entered;
+        let met = self.source.meet(self.level, fade, tile, (k, there), (seen, ratios, crossings));
         counts.packet_steps += 1;
         counts.samples += u64::from(met.count_ones());
         counts.cells_skipped += u64::from((there & !met).count_ones());

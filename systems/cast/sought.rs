@@ -1,12 +1,9 @@
 //! The greatest, the least and the mean of the scalars at the samples of one ray.
 
 use crate::view::samples::Counts;
-use crate::view::walk::{FRACTION_BITS, Tile};
+use crate::view::walk::{self, FRACTION_BITS, Tile};
 use crate::volume::bricks::EDGE;
 use crate::volume::grid::Scalar;
-
-/// Bits of a place in a cell that are looked at: exact in an f32.
-const PLACE_BITS: u32 = 24;
 
 /// A ray of a tile in a volume, from the first sample inside on.
 pub struct Sought<'a> {
@@ -109,8 +106,7 @@ impl Sought<'_> {
     fn value<T: Scalar>(&self, values: &[T], place: [i64; 3], cell: [usize; 3]) -> f32 {
         let [nx, ny, _] = self.size;
         let part: [f32; 3] = std::array::from_fn(|axis| {
-            let part = place[axis] - ((cell[axis] as i64) << FRACTION_BITS);
-            (part >> (FRACTION_BITS - PLACE_BITS)) as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
+            walk::part(place[axis] - ((cell[axis] as i64) << FRACTION_BITS))
         });
         let first = (cell[2] * ny + cell[1]) * nx + cell[0];
         let row = |offset: usize| {

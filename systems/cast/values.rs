@@ -4,7 +4,7 @@ use fearless_simd::Level;
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use hecs::Entity;
 
-use super::crossing::{self, Stretch, index, spot};
+use super::crossing::{self, Crossings, Stretch, index, spot};
 use super::inputs::StatedValues;
 use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
@@ -113,13 +113,13 @@ impl<'a> Values<'a> {
         level: Level,
         fade: f32,
         (stretch, middle): (&Stretch, f32),
-        (seen, ratio): (&mut Vec4, f64),
+        (seen, ratio, met): (&mut Vec4, f64, &mut Crossings),
     ) {
         let mut ends = [Sampled::default(); 2];
         let spots = [0.0, 1.0].map(|part| spot(stretch.at(part)));
         self.field.sample(level, &spots, &mut ends);
         let values = [(0.0, ends[0].value), (0.5, middle), (1.0, ends[1].value)];
-        let mut met = Vec::new();
+        met.clear();
         for surface in &self.surfaces {
             for half in values.windows(2) {
                 let field = (&self.field, level);
@@ -138,7 +138,7 @@ impl<'a> Values<'a> {
             }
         }
         if !met.is_empty() {
-            *seen = crossing::slab(*seen, &mut met, ratio);
+            *seen = crossing::slab(*seen, met, ratio);
         }
     }
 
@@ -182,7 +182,7 @@ impl Source for Values<'_> {
         fade: Option<f32>,
         tile: &Tile,
         (k, lanes): (i64, Lanes),
-        (seen, ratios): (&mut [Vec4; LANES], &[f64; LANES]),
+        (seen, ratios, crossings): (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes {
         let fade = fade.unwrap_or(1.0);
         let met = self.near(tile, k, lanes);
@@ -197,7 +197,8 @@ impl Source for Values<'_> {
         if !self.surfaces.is_empty() {
             for (lane, sampled) in each(met).zip(&sampled) {
                 let stretch = Stretch::of(tile, lane, k);
-                self.cross(level, fade, (&stretch, sampled.value), (&mut seen[lane], ratios[lane]));
+                let slab = (&mut seen[lane], ratios[lane], &mut *crossings);
+                self.cross(level, fade, (&stretch, sampled.value), slab);
             }
         }
         met
