@@ -153,7 +153,6 @@ impl<'a, C: Caster> Refinement<'a, C> {
     ) -> Result<(), Error> {
         let (layout, caster) = (self.array.layout, self.caster);
         let at_once = preview.map_or(usize::MAX, |_| 2 * rayon::current_num_threads());
-        let span = tracing::Span::current();
         let mut done = 0;
         loop {
             let SampleArray { colors, opened, cast, counts, .. } = &mut self.array;
@@ -164,20 +163,9 @@ impl<'a, C: Caster> Refinement<'a, C> {
             }
             let mut rows = 0;
             for bands in bands[done..].chunks_mut(at_once) {
-                let counted: Vec<Counts> = bands
-                    .par_iter_mut()
-                    .map(|band| {
-                        let _inside = span.enter();
-                        let _rows = tracing::trace_span!("band", number = band.number).entered();
-                        watch.check()?;
-                        cast_band(band, &layout, step, &wanted, caster);
-                        watch.advance();
-                        Ok(band.counts)
-                    })
-                    .collect::<Result<_, Error>>()?;
-                for counted in counted {
-                    *counts += counted;
-                }
+                *counts += cast_bands(bands, watch, |band| {
+                    cast_band(band, &layout, step, &wanted, caster);
+                })?;
                 done += bands.len();
                 rows = bands.last().map_or(rows, Band::bottom);
                 if preview.is_some_and(Preview::is_due) {
@@ -192,6 +180,31 @@ impl<'a, C: Caster> Refinement<'a, C> {
             }
         }
     }
+}
+
+/// Casts some bands side by side, each in a span of its own; what was counted in all of them.
+fn cast_bands(
+    bands: &mut [Band<'_>],
+    watch: &Watch,
+    cast: impl Fn(&mut Band<'_>) + Sync,
+) -> Result<Counts, Error> {
+    let span = tracing::Span::current();
+    let counted: Vec<Counts> = bands
+        .par_iter_mut()
+        .map(|band| {
+            let _inside = span.enter();
+            let _rows = tracing::trace_span!("band", number = band.number).entered();
+            watch.check()?;
+            cast(band);
+            watch.advance();
+            Ok(band.counts)
+        })
+        .collect::<Result<_, Error>>()?;
+    let mut counts = Counts::default();
+    for counted in counted {
+        counts += counted;
+    }
+    Ok(counts)
 }
 
 /// Casts the wanted rays of a band, packet by packet.
