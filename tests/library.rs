@@ -1,7 +1,7 @@
 //! The library from outside: worlds from arrays in memory, what they leave out, what is kept, and what is refused.
 
 use gelray::prelude::*;
-use gelray::scene::{Source, load};
+use gelray::scene::{Kept, Loads, Source, load, load_keeping};
 use gelray::view::extent::Extent;
 
 const SCENE: &str = "
@@ -210,4 +210,53 @@ fn what_cannot_be_rendered_is_refused_by_entity_in_one_sentence() {
     assert!(mesh.contains("vertex 1"), "{mesh}");
     let nothing = Renderer::new().unwrap().render(&mut World::new()).err().unwrap().to_string();
     assert!(nothing.contains("there is nothing to see"), "{nothing}");
+}
+
+/// A segmentation of two labels, and a molecule of two atoms in it, scan-converted.
+const SEGMENTED: &str = r#"
+[[entity]]
+name = "parts"
+volume = { file = "labels.nrrd" }
+labels = { table = [{ label = 1, color = "red", opacity = 0.4 }] }
+[[entity]]
+name = "atoms"
+molecule = { file = "two.pdb", style = "balls" }
+voxelize = {}
+[[entity]]
+light = { toward = [0, -1, 0], strength = 1 }
+[[entity]]
+name = "observer"
+view = { azimuth = 10, size = [24, 24] }
+"#;
+
+#[test]
+fn a_scene_that_is_stated_again_reads_and_makes_its_labels_and_molecules_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 8 8 8\nencoding: raw\n\n";
+    let labels = (0..512).map(|at| u8::from(at % 8 > 2));
+    let labels: Vec<u8> = header.bytes().chain(labels).collect();
+    std::fs::write(folder.path().join("labels.nrrd"), labels).unwrap();
+    let atom = |number: u8, x: f32| {
+        format!(
+            "ATOM  {number:5}  C   GLY A   7    {x:8.3}   0.000   0.000  1.00 10.00           C\n"
+        )
+    };
+    std::fs::write(folder.path().join("two.pdb"), atom(1, 0.0) + &atom(2, 1.5)).unwrap();
+    let data = vec![folder.path().to_owned()];
+    let source = Source::inline("s.toml", SEGMENTED);
+    let loads = Loads { source, data, exact: false, most_bytes: None };
+    let mut kept = Kept::default();
+    let mut scene = load_keeping(&loads, &[], &mut kept).unwrap();
+    let files = scene.files.clone();
+    let renderer = Renderer::new().unwrap();
+    renderer.render(&mut scene.world).unwrap();
+    std::fs::remove_file(folder.path().join("two.pdb")).unwrap();
+    scene.restate(&loads, &["observer.view.azimuth=70".to_owned()], &mut kept).unwrap();
+    let ran = renderer.render(&mut scene.world).unwrap().ran;
+    let made: Vec<_> = ran.iter().filter(|ran| ran.made > 0).map(|ran| ran.name).collect();
+    assert_eq!(made, ["cast", "resample"]);
+    // Its first loading told of both files.
+    assert_eq!(files.len(), 2);
+    let other = "atoms.molecule.style=\"sticks\"".to_owned();
+    assert!(scene.restate(&loads, &[other], &mut kept).is_err(), "the file is asked for again");
 }

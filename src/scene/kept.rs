@@ -1,4 +1,5 @@
-//! What one loading of a scene leaves for the next: voxels and pictures that were read, and what was measured of them.
+//! What one loading of a scene leaves for the next: voxels, pictures and molecules that were read, and what was made and measured
+//! of them.
 //!
 //! Products are kept where their inputs are the very same arrays, so a scene that is loaded again with other numbers takes
 //! over the arrays of the time before wherever what they were made of is stated as before.
@@ -7,11 +8,13 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use crate::components::{Texture, Volume};
+use crate::components::{Classify, Labels, Molecule, Texture, Volume};
 use crate::formats::Loaded;
 use crate::measure::sigma::{Sigma, sigma};
+use crate::polygon::face::{FaceColors, Faces};
 use crate::view::picture::Picture;
-use crate::volume::grid::Scalars;
+use crate::volume::grid::{Grid, Scalars};
+use crate::volume::labels::Tint;
 
 /// Arrays that were read for a scene, to be taken over when it is loaded again with other values.
 ///
@@ -20,6 +23,8 @@ use crate::volume::grid::Scalars;
 pub struct Kept {
     pub(super) volumes: HashMap<String, KeptVolume>,
     pub(super) pictures: HashMap<String, KeptPicture>,
+    pub(super) molecules: HashMap<String, KeptMolecule>,
+    pub(super) labels: HashMap<String, KeptLabels>,
     measured: Vec<(Scalars, OnceCell<Option<Sigma>>)>,
 }
 
@@ -38,6 +43,37 @@ pub(super) struct KeptPicture {
     pub stated: Texture,
     pub picture: Picture,
     pub files: Vec<PathBuf>,
+}
+
+/// The faces of an entity's molecule.
+#[derive(Clone)]
+pub(super) struct KeptMolecule {
+    pub stated: Molecule,
+    pub faces: Faces,
+    pub colors: FaceColors,
+    pub files: Vec<PathBuf>,
+}
+
+/// What an entity's labels are made into.
+#[derive(Clone)]
+pub(super) struct KeptLabels {
+    pub stated: Labels,
+    /// Where the voxels are that they belong to.
+    pub grid: Grid,
+    /// The labels, where they are the volume's own.
+    pub own: Option<Scalars>,
+    pub labeled: Labeled,
+    pub files: Vec<PathBuf>,
+}
+
+/// Labels as what is seen of them.
+#[derive(Clone)]
+pub(super) struct Labeled {
+    /// What is to be classified in place of labels by themselves, and how.
+    pub classified: Option<(Scalars, Classify)>,
+    pub tint: Tint,
+    /// Whether any voxel has a label that is seen.
+    pub is_seen: bool,
 }
 
 impl Kept {

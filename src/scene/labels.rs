@@ -1,5 +1,6 @@
 //! The labels of a scene's segmentations: read, colored and laid over the voxels that they belong to.
 
+use super::kept::{KeptLabels, Labeled};
 use super::loading::Loading;
 use crate::components::{Classify, Labels, Level};
 use crate::error::Error;
@@ -25,14 +26,20 @@ pub(super) fn by_themselves(
         let problem = "`labels.outside` is about another volume's voxels; name the labels by `labels.file` or take it away";
         return Err(loading.error(entry, "labels", "outside", problem));
     }
-    let Some(grid) = loading.get::<Grid>(entry) else { return Ok(()) };
-    let looks = looks(loading, entry, labels)?;
-    loading.afford(grid.voxels() as u64 * BYTES)?;
-    let numbers = nearest(scalars, &grid, &grid);
-    said_if_none(loading, entry, &numbers, &looks);
-    let (scalars, transfer, tint) = alone(&numbers, grid.size, &looks, labels.smooth_voxels);
-    let classify: Classify = Classify { transfer, ..Classify::default() };
-    loading.add(entry, (scalars, classify, tint));
+    let own = Some(scalars.clone());
+    let made = kept_or_made(loading, entry, (labels, own), |loading, grid| {
+        let looks = looks(loading, entry, labels)?;
+        loading.afford(grid.voxels() as u64 * BYTES)?;
+        let numbers = nearest(scalars, grid, grid);
+        let (scalars, transfer, tint) = alone(&numbers, grid.size, &looks, labels.smooth_voxels);
+        let classify = Classify { transfer, ..Classify::default() };
+        let is_seen = is_any_seen(&numbers, &looks);
+        Ok(Labeled { classified: Some((scalars, classify)), tint, is_seen })
+    })?;
+    if let Some(Labeled { classified: Some(classified), tint, .. }) = made {
+        loading.add(entry, classified);
+        loading.add(entry, (tint,));
+    }
     Ok(())
 }
 
@@ -42,16 +49,53 @@ pub(super) fn over_volume(
     entry: usize,
     (labels, file): (&Labels, &str),
 ) -> Result<(), Error> {
-    let Some(grid) = loading.get::<Grid>(entry) else { return Ok(()) };
-    let looks = looks(loading, entry, labels)?;
-    let (from, scalars) = of_labels(loading, entry, file)?;
-    loading.afford(grid.voxels() as u64 * BYTES)?;
-    let numbers = nearest(&scalars, &from, &grid);
-    said_if_none(loading, entry, &numbers, &looks);
-    let outside = labels.outside.unwrap_or(1.0);
-    let tint = over(&numbers, grid.size, &looks, labels.smooth_voxels, outside);
-    loading.add(entry, (tint,));
+    let made = kept_or_made(loading, entry, (labels, None), |loading, grid| {
+        let looks = looks(loading, entry, labels)?;
+        let (from, scalars) = of_labels(loading, entry, file)?;
+        loading.afford(grid.voxels() as u64 * BYTES)?;
+        let numbers = nearest(&scalars, &from, grid);
+        let outside = labels.outside.unwrap_or(1.0);
+        let tint = over(&numbers, grid.size, &looks, labels.smooth_voxels, outside);
+        Ok(Labeled { classified: None, tint, is_seen: is_any_seen(&numbers, &looks) })
+    })?;
+    if let Some(Labeled { tint, .. }) = made {
+        loading.add(entry, (tint,));
+    }
     Ok(())
+}
+
+/// What an earlier loading made of labels; else what `make` makes for the volume's grid, kept for the next. `None` without a
+/// grid.
+fn kept_or_made(
+    loading: &mut Loading,
+    entry: usize,
+    (labels, own): (&Labels, Option<Scalars>),
+    make: impl FnOnce(&mut Loading, &Grid) -> Result<Labeled, Error>,
+) -> Result<Option<Labeled>, Error> {
+    let Some(grid) = loading.get::<Grid>(entry) else { return Ok(None) };
+    let name = loading.entries[entry].name.clone();
+    let is_same =
+        |kept: &&KeptLabels| kept.stated == *labels && kept.grid == grid && kept.own == own;
+    let labeled = if let Some(kept) = loading.kept.labels.get(&name).filter(is_same) {
+        loading.files.extend(kept.files.iter().cloned());
+        kept.labeled.clone()
+    } else {
+        let before = loading.files.len();
+        let labeled = make(loading, &grid)?;
+        let files = loading.files[before..].to_vec();
+        let kept =
+            KeptLabels { stated: labels.clone(), grid, own, labeled: labeled.clone(), files };
+        loading.kept.labels.insert(name, kept);
+        labeled
+    };
+    if !labeled.is_seen {
+        // A table that no voxel answers to is most often one of another segmentation.
+        loading.warn(
+            entry,
+            "no voxel has a label that is seen; check `labels.table` against `gelray info`",
+        );
+    }
+    Ok(Some(labeled))
 }
 
 /// How each label looks: the table of the scene before that of a file.
@@ -77,17 +121,11 @@ fn looks(loading: &mut Loading, entry: usize, labels: &Labels) -> Result<Looks, 
     Ok(looks)
 }
 
-/// A table that no voxel answers to is most often one of another segmentation.
-fn said_if_none(loading: &mut Loading, entry: usize, numbers: &[u32], looks: &Looks) {
+fn is_any_seen(numbers: &[u32], looks: &Looks) -> bool {
     let seen = |label: &u32| {
         looks.known.get(label).map_or(looks.others && *label > 0, |look| look.1 > 0.0)
     };
-    if !numbers.iter().any(seen) {
-        loading.warn(
-            entry,
-            "no voxel has a label that is seen; check `labels.table` against `gelray info`",
-        );
-    }
+    numbers.iter().any(seen)
 }
 
 /// The labels of another volume's file, and where they are.

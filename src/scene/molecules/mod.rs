@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::kept::KeptMolecule;
 use super::loading::Loading;
 use crate::components::{Color, Molecule, MoleculeStyle, Surface};
 use crate::error::Error;
@@ -24,6 +25,33 @@ pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
 
 fn read_one(loading: &mut Loading, entry: usize) -> Result<(), Error> {
     let Some(molecule) = loading.get::<Molecule>(entry) else { return Ok(()) };
+    let KeptMolecule { faces, colors, .. } = kept_or_made(loading, entry, molecule)?;
+    // A color that the scene states is that of all atoms.
+    let stated = loading.get::<Surface>(entry).map(|surface| surface.color);
+    if stated.is_none_or(|color| color == Color::WHITE) {
+        loading.add(entry, (colors,));
+    }
+    loading.add(entry, (faces,));
+    Ok(())
+}
+
+/// The faces that an earlier loading made; else the molecule is read, and its faces are kept for the next.
+fn kept_or_made(
+    loading: &mut Loading,
+    entry: usize,
+    molecule: Molecule,
+) -> Result<KeptMolecule, Error> {
+    let name = loading.entries[entry].name.clone();
+    if let Some(kept) = loading.kept.molecules.get(&name).filter(|kept| kept.stated == molecule) {
+        loading.files.extend(kept.files.iter().cloned());
+        return Ok(kept.clone());
+    }
+    let kept = made(loading, entry, molecule)?;
+    loading.kept.molecules.insert(name, kept.clone());
+    Ok(kept)
+}
+
+fn made(loading: &mut Loading, entry: usize, molecule: Molecule) -> Result<KeptMolecule, Error> {
     let Some(path) = loading.folders.find(&molecule.file) else {
         let missing = loading.folders.missing(&molecule.file);
         let problem = format!("{missing}; name its folder as a data folder");
@@ -48,13 +76,8 @@ fn read_one(loading: &mut Loading, entry: usize) -> Result<(), Error> {
         };
         return Err(loading.error(entry, "molecule", "style", problem));
     }
-    // A color that the scene states is that of all atoms.
-    let stated = loading.get::<Surface>(entry).map(|surface| surface.color);
-    if stated.is_none_or(|color| color == Color::WHITE) {
-        loading.add(entry, (FaceColors(Shared::new(colors)),));
-    }
-    loading.add(entry, (Faces(Arc::new(faces)),));
-    Ok(())
+    let (faces, colors) = (Faces(Arc::new(faces)), FaceColors(Shared::new(colors)));
+    Ok(KeptMolecule { stated: molecule, faces, colors, files: vec![path] })
 }
 
 /// The faces of some shapes, and the color of each.
