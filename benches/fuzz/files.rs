@@ -1,14 +1,12 @@
 //! Files of volumes and of pictures, a few bytes beside sound ones.
 
-use std::io::Write;
 use std::path::Path;
 
-use flate2::Compression;
-use flate2::write::GzEncoder;
 use gelray::formats::pictures::{Notes, write_picture};
 use gelray::formats::{Stated, Voxels, read_picture, read_volume, survey};
 use gelray::view::picture::Picture;
 
+use super::made::{gzip, map, nifti};
 use super::random::Random;
 
 /// A volume of some format, read; whether it was taken, or what does not hold together.
@@ -69,37 +67,4 @@ fn sound(random: &mut Random) -> (&'static str, Vec<u8>) {
         5 => ("f.map", map()),
         _ => ("g.raw", vec![1; 24]),
     }
-}
-
-fn gzip(bytes: &[u8]) -> Vec<u8> {
-    let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
-    // Writing to memory does not fail.
-    let _ = packer.write_all(bytes);
-    packer.finish().unwrap_or_default()
-}
-
-fn nifti() -> Vec<u8> {
-    let mut nifti = vec![0; 352 + 24];
-    nifti[..4].copy_from_slice(&348_i32.to_le_bytes());
-    nifti[40..50].copy_from_slice(&[3, 0, 2, 0, 3, 0, 2, 0, 1, 0]);
-    nifti[70] = 4;
-    for at in [76, 80, 84, 88, 112] {
-        nifti[at..at + 4].copy_from_slice(&1.0_f32.to_le_bytes());
-    }
-    nifti[344..348].copy_from_slice(b"n+1\0");
-    nifti
-}
-
-fn map() -> Vec<u8> {
-    let mut map = vec![0; 1024 + 24];
-    for (word, value) in [2, 3, 2, 1, 0, 0, 0, 2, 3, 2].into_iter().enumerate() {
-        map[word * 4] = value;
-    }
-    for (word, value) in [2.0_f32, 3.0, 2.0, 90.0, 80.0, 100.0].iter().enumerate() {
-        map[40 + word * 4..44 + word * 4].copy_from_slice(&value.to_le_bytes());
-    }
-    (map[64], map[68], map[72]) = (1, 2, 3);
-    map[208..212].copy_from_slice(b"MAP ");
-    map[212] = 0x44;
-    map
 }

@@ -8,6 +8,9 @@
 
 mod files;
 mod kills;
+#[allow(dead_code, reason = "the tests of formats make more")]
+#[path = "../../src/formats/made.rs"]
+mod made;
 mod program;
 mod random;
 mod scenes;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 
-use super::made::{gzip, pages, zlib};
+use super::made::{gzip, map, nifti, pages, zlib};
 use super::stream::Stream;
 use super::{Stated, Voxels, read_stream};
 
@@ -12,24 +12,7 @@ use super::{Stated, Voxels, read_stream};
 fn sound() -> Vec<(&'static str, Vec<u8>)> {
     let start = "NRRD0005\ntype: short\ndimension: 3\nsizes: 2 3 2\nspace: RAS\nspace directions: (1,0,0) (0,1,0) (0,0,2)\nspace origin: (0,0,0)\nkinds: domain domain domain\nendian: big\nbyte skip: 0\nline skip: 0\n";
     let painted = "NRRD0005\ntype: float\ndimension: 4\nsizes: 4 2 3 2\nspacings: nan 1 1 2\nkinds: RGBA-color domain domain domain\nendian: big\nencoding: raw\n\n";
-    let mut nifti = vec![0; 352 + 24];
-    nifti[..4].copy_from_slice(&348_i32.to_le_bytes());
-    nifti[40..50].copy_from_slice(&[3, 0, 2, 0, 3, 0, 2, 0, 1, 0]);
-    nifti[70] = 4;
-    for at in [76, 80, 84, 88, 112] {
-        nifti[at..at + 4].copy_from_slice(&1.0_f32.to_le_bytes());
-    }
-    nifti[344..348].copy_from_slice(b"n+1\0");
-    let mut map = vec![0; 1024 + 24];
-    for (word, value) in [2, 3, 2, 1, 0, 0, 0, 2, 3, 2].into_iter().enumerate() {
-        map[word * 4] = value;
-    }
-    for (word, value) in [2.0_f32, 3.0, 2.0, 90.0, 80.0, 100.0].iter().enumerate() {
-        map[40 + word * 4..44 + word * 4].copy_from_slice(&value.to_le_bytes());
-    }
-    (map[64], map[68], map[72]) = (1, 2, 3);
-    map[208..212].copy_from_slice(b"MAP ");
-    map[212] = 0x44;
+    let (nifti, map) = (nifti(), map());
     let meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 1 1 2\nDimSize = 2 3 2\nElementType = MET_SHORT\n";
     let local = "ElementDataFile = LOCAL\n";
     let text = "{'descr': '<i2', 'fortran_order': False, 'shape': (2, 3, 2), }\n";

@@ -1,4 +1,4 @@
-//! What the tests of several formats make.
+//! What the tests of several formats make, and those who damage files.
 
 use std::io::Write;
 
@@ -25,4 +25,32 @@ pub(super) fn pages(count: u16) -> Vec<u8> {
         encoder.write_image::<tiff::encoder::colortype::Gray16>(3, 2, &pixels).unwrap();
     }
     bytes.into_inner()
+}
+
+/// A NIfTI of 2 × 3 × 2 zeros of 16 bits.
+pub(super) fn nifti() -> Vec<u8> {
+    let mut nifti = vec![0; 352 + 24];
+    nifti[..4].copy_from_slice(&348_i32.to_le_bytes());
+    nifti[40..50].copy_from_slice(&[3, 0, 2, 0, 3, 0, 2, 0, 1, 0]);
+    nifti[70] = 4;
+    for at in [76, 80, 84, 88, 112] {
+        nifti[at..at + 4].copy_from_slice(&1.0_f32.to_le_bytes());
+    }
+    nifti[344..348].copy_from_slice(b"n+1\0");
+    nifti
+}
+
+/// An MRC map of 2 × 3 × 2 zeros of 16 bits.
+pub(super) fn map() -> Vec<u8> {
+    let mut map = vec![0; 1024 + 24];
+    for (word, value) in [2, 3, 2, 1, 0, 0, 0, 2, 3, 2].into_iter().enumerate() {
+        map[word * 4] = value;
+    }
+    for (word, value) in [2.0_f32, 3.0, 2.0, 90.0, 80.0, 100.0].iter().enumerate() {
+        map[40 + word * 4..44 + word * 4].copy_from_slice(&value.to_le_bytes());
+    }
+    (map[64], map[68], map[72]) = (1, 2, 3);
+    map[208..212].copy_from_slice(b"MAP ");
+    map[212] = 0x44;
+    map
 }
