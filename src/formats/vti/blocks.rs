@@ -10,20 +10,39 @@ pub(super) enum Encoding {
     Base64,
 }
 
+/// How the values of a file are written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Written {
+    pub encoding: Encoding,
+    pub order: Order,
+    /// Bytes of a length: 4 or 8.
+    pub width: usize,
+}
+
+impl Written {
+    /// The first `count` bytes of what is written.
+    fn first(self, bytes: &[u8], count: usize) -> Result<Vec<u8>, String> {
+        match self.encoding {
+            Encoding::Raw => bytes.get(..count).map(<[u8]>::to_vec).ok_or_else(truncated),
+            Encoding::Base64 => decoded(bytes, count),
+        }
+    }
+
+    fn lengths(self, bytes: &[u8]) -> Vec<u64> {
+        let fold = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
+        let length = |bytes: &[u8]| match self.order {
+            Order::Big => bytes.iter().fold(0, fold),
+            Order::Little => bytes.iter().rev().fold(0, fold),
+        };
+        bytes.chunks_exact(self.width).map(length).collect()
+    }
+}
+
 /// Bytes of a plain array of `needed` bytes: its length goes before it.
-pub(super) fn plain(
-    bytes: &[u8],
-    encoding: Encoding,
-    order: Order,
-    wide: bool,
-    needed: usize,
-) -> Result<Vec<u8>, String> {
-    let width = if wide { 8 } else { 4 };
-    let all = match encoding {
-        Encoding::Raw => bytes.get(..width + needed).ok_or_else(truncated)?.to_vec(),
-        Encoding::Base64 => decoded(bytes, width + needed)?,
-    };
-    let [length] = numbers(&all[..width], order, wide)[..] else { return Err(truncated()) };
+pub(super) fn plain(bytes: &[u8], written: Written, needed: usize) -> Result<Vec<u8>, String> {
+    let width = written.width;
+    let all = written.first(bytes, width + needed)?;
+    let [length] = written.lengths(&all[..width])[..] else { return Err(truncated()) };
     if length < needed as u64 {
         return Err(format!(
             "its values are {length} bytes where its extent needs {needed}; save it again"
@@ -33,27 +52,17 @@ pub(super) fn plain(
 }
 
 /// Bytes of an array of `needed` bytes that is packed in blocks.
-pub(super) fn inflated(
-    bytes: &[u8],
-    encoding: Encoding,
-    order: Order,
-    wide: bool,
-    needed: usize,
-) -> Result<Vec<u8>, String> {
-    let width = if wide { 8 } else { 4 };
-    let some = |bytes: &[u8], count: usize| match encoding {
-        Encoding::Raw => bytes.get(..count).map(<[u8]>::to_vec).ok_or_else(truncated),
-        Encoding::Base64 => decoded(bytes, count),
-    };
-    let start = numbers(&some(bytes, 3 * width)?, order, wide);
+pub(super) fn inflated(bytes: &[u8], written: Written, needed: usize) -> Result<Vec<u8>, String> {
+    let width = written.width;
+    let start = written.lengths(&written.first(bytes, 3 * width)?);
     let [count, block, last] = start[..] else { return Err(truncated()) };
     // Each block has a length in the table.
     let count = usize::try_from(count).ok().filter(|&count| count <= bytes.len() / width);
     let count = count.ok_or_else(truncated)?;
     let table = (3 + count) * width;
-    let lengths = numbers(&some(bytes, table)?, order, wide);
+    let lengths = written.lengths(&written.first(bytes, table)?);
     let packed: u64 = lengths[3..].iter().fold(0, |sum, &length| sum.saturating_add(length));
-    let rest = match encoding {
+    let rest = match written.encoding {
         Encoding::Raw => bytes.get(table..),
         Encoding::Base64 => {
             let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
@@ -61,7 +70,7 @@ pub(super) fn inflated(
         }
     };
     let packed = usize::try_from(packed).map_err(|_| truncated())?;
-    let packed = some(rest.ok_or_else(truncated)?, packed)?;
+    let packed = written.first(rest.ok_or_else(truncated)?, packed)?;
     let mut values: Vec<u8> = Vec::new();
     let mut from = 0;
     for (number, &length) in lengths[3..].iter().enumerate() {
@@ -74,17 +83,6 @@ pub(super) fn inflated(
         values.extend(more);
     }
     if values.len() < needed { Err(truncated()) } else { Ok(values) }
-}
-
-fn numbers(bytes: &[u8], order: Order, wide: bool) -> Vec<u64> {
-    let number = |bytes: &[u8]| {
-        let fold = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
-        match order {
-            Order::Big => bytes.iter().fold(0, fold),
-            Order::Little => bytes.iter().rev().fold(0, fold),
-        }
-    };
-    bytes.chunks_exact(if wide { 8 } else { 4 }).map(number).collect()
 }
 
 /// The first `count` bytes of base64, blanks left out; what pads it ends it.

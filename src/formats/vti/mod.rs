@@ -14,7 +14,7 @@ use super::number::{self, Binary, NumberType, Order};
 use super::stream::Stream;
 use super::survey::{Promise, of_size};
 use super::{Loaded, Stated, Voxels};
-use blocks::Encoding;
+use blocks::{Encoding, Written};
 use tags::{Tag, tag};
 
 /// What a file says of its image and of the values of its points.
@@ -56,11 +56,12 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
         }
         Values::Bytes(bytes, encoding) => {
             let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
-            let wide = header.wide;
+            let width = if header.wide { 8 } else { 4 };
+            let written = Written { encoding, order: header.order, width };
             let raw = if header.packed {
-                blocks::inflated(bytes, encoding, header.order, wide, count * each)?
+                blocks::inflated(bytes, written, count * each)?
             } else {
-                blocks::plain(bytes, encoding, header.order, wide, count * each)?
+                blocks::plain(bytes, written, count * each)?
             };
             let mut stream = Stream::of(raw);
             voxels(&mut Binary { stream: &mut stream, order: header.order }, &header, count)?
