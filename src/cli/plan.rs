@@ -4,8 +4,8 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use gelray::components::{Name, Sampling, View};
+use gelray::renderer::Renderer;
 use gelray::schedule::{Job, Plan, Schedule};
-use gelray::systems::JOBS;
 use gelray::view::extent::Extent;
 use gelray::volume::grid::smallest_spacing;
 use gelray::volume::scene_volumes::visible;
@@ -28,9 +28,10 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     let source = contact::open(scene, flags)?;
     outputs::check(flags, &source.path.as_deref().into_iter().collect::<Vec<&Path>>())?;
     let scene = render::load(&source, flags)?;
-    let schedule = Schedule::new(JOBS)?;
-    outputs::print_or_write(&words(&schedule, &scene.world), flags)?;
-    check_memory(&schedule, &scene.world, flags)
+    let renderer = Renderer::new()?;
+    let schedule = renderer.schedule();
+    outputs::print_or_write(&words(schedule, &scene.world), flags)?;
+    check_memory(schedule, &scene.world, flags)
 }
 
 /// How many samples the view's rays can take, were nothing empty: a scene without a volume takes none.

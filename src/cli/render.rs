@@ -2,18 +2,16 @@
 
 use std::ffi::OsStr;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use gelray::Error;
 use gelray::error::Blame;
 use gelray::formats::pictures::ray_map_beside;
+use gelray::renderer::{Rendered, Renderer};
 use gelray::scene::{Scene, Source};
-use gelray::schedule::{Ran, Schedule};
-use gelray::systems::JOBS;
-use gelray::view::picture::Frame;
+use gelray::schedule::Ran;
 use gelray::view::samples::POSITIONS;
-use gelray::view::samples::Samples;
-use hecs::World;
 
 use super::failure::{Failure, tell};
 use super::flags::Flags;
@@ -74,29 +72,32 @@ pub fn run(scene: Option<&OsStr>, progressive: &Progressive, flags: &Flags) -> R
     let loaded = start.elapsed().as_secs_f64();
     let telling = telling_notes(&scene.name, &scene.resolved, flags, None);
     let looking = progressive.look(&mut scene, telling)?;
-    let ran = run_systems(&mut scene.world, &interrupt, flags);
+    let made = rendered(&mut scene, &interrupt, flags);
     // Pictures on their way are written before anything else is said.
     let last = looking.map(|looking| looking.end(&mut scene.world)).transpose();
-    let (ran, last) = (ran?, last?);
-    let made = Rendered::of(&scene.world)?;
+    let (made, last) = (made?, last?);
+    let counts = Counted::of(&scene.world, made.samples.counts, made.picture.size);
     let outs = [Some(out), last.as_deref()];
-    let (mut results, encode) = encoded(outs, &scene, &made, flags)?;
+    let (mut results, encode) = encoded(outs, &scene, &made, &counts, flags)?;
     if let Some(path) = &flags.save_scene {
         results.text(path, &contact::saved(path, &scene))?;
     }
     interrupt.watch.check()?;
     let total = start.elapsed().as_secs_f64();
     if let Some(path) = &flags.stats {
-        results.json(path, &stats(&scene, &made, &ran, [loaded, encode, total], flags.exact))?;
+        results.json(
+            path,
+            &stats(&scene, &made, counts.clone(), [loaded, encode, total], flags.exact),
+        )?;
     }
     if let Some((trace, path)) = trace {
         results.keep(trace.end(path)?);
     }
     results.appear(&interrupt)?;
-    if let Some(warning) = empty::warning(&scene.world, &made.samples.0).filter(|_| !flags.quiet) {
+    if let Some(warning) = empty::warning(&scene.world, &made.samples).filter(|_| !flags.quiet) {
         tell(format_args!("warning: {warning}"));
     }
-    say_done(out, &made, &ran, total, flags);
+    say_done(out, &made, &counts, total, flags);
     Ok(())
 }
 
@@ -105,17 +106,18 @@ fn encoded(
     outs: [Option<&Path>; 2],
     scene: &Scene,
     made: &Rendered,
+    counts: &Counted,
     flags: &Flags,
 ) -> Result<(Results, f64), Failure> {
     let _span = tracing::info_span!("encode").entered();
     let start = Instant::now();
     let mut results = Results::default();
-    let notes = notes(scene, &made.counts, flags, None)?;
+    let notes = notes(scene, counts, flags, None)?;
     for out in outs.into_iter().flatten() {
-        results.picture(out, &made.frame.0, &notes)?;
+        results.picture(out, &made.picture, &notes)?;
     }
     if let Some(path) = &flags.rays {
-        let array = &made.samples.0;
+        let array = &made.samples;
         let size = array.layout.size.map(|n| n * POSITIONS);
         results.keep(ray_map_beside(path, size, &array.ray_map())?);
     }
@@ -190,70 +192,44 @@ pub fn blame(error: Error, source: &Source) -> Failure {
     error.into()
 }
 
-/// Runs every system on the world, within the memory that is allowed.
-fn run_systems(
-    world: &mut World,
-    interrupt: &Interrupt,
-    flags: &Flags,
-) -> Result<Vec<Ran>, Failure> {
-    let schedule = Schedule::new(JOBS)?;
-    bound::check_memory(&schedule, world, flags)?;
+/// Renders the scene's view, within the memory that is allowed.
+fn rendered(scene: &mut Scene, interrupt: &Interrupt, flags: &Flags) -> Result<Rendered, Failure> {
+    let renderer = Renderer::watched(Arc::clone(&interrupt.watch))?;
+    bound::check_memory(renderer.schedule(), &scene.world, flags)?;
     interrupt.work_begins();
     let _progress = Progress::show(&interrupt.watch, flags);
-    let ran = schedule.run(world, &interrupt.watch)?;
-    interrupt.watch.check()?;
-    Ok(ran)
-}
-
-/// What a view's systems made.
-struct Rendered {
-    frame: Frame,
-    samples: Samples,
-    counts: Counted,
-}
-
-impl Rendered {
-    fn of(world: &World) -> Result<Self, Error> {
-        let mut views = world.query::<(&Frame, &Samples)>();
-        let (frame, samples) = views
-            .iter()
-            .next()
-            .ok_or_else(|| Error::Schedule("no system made a picture of the view".to_owned()))?;
-        let counts = Counted::of(world, samples.0.counts, frame.0.size);
-        Ok(Self { frame: frame.clone(), samples: samples.clone(), counts })
-    }
+    Ok(renderer.render(&mut scene.world)?)
 }
 
 fn stats<'a>(
     scene: &'a Scene,
-    made: &Rendered,
-    ran: &'a [Ran],
+    made: &'a Rendered,
+    counts: Counted,
     [load, encode, total]: [f64; 3],
     exact: bool,
 ) -> Stats<'a> {
-    let size = made.frame.0.size;
     Stats {
         version: VERSION,
         scene: &scene.name,
-        size,
+        size: made.picture.size,
         threads: rayon::current_num_threads(),
         exact,
-        systems: ran,
-        counts: Counted::of(&scene.world, made.samples.0.counts, size),
+        systems: &made.ran,
+        counts,
         bytes: Bytes::of(&scene.world),
-        seconds: Seconds::of(ran, load, encode, total),
+        seconds: Seconds::of(&made.ran, load, encode, total),
     }
 }
 
 /// The last line: what was made; with `-v`, after a line a system.
-fn say_done(out: &Path, made: &Rendered, ran: &[Ran], total: f64, flags: &Flags) {
+fn say_done(out: &Path, made: &Rendered, counts: &Counted, total: f64, flags: &Flags) {
     if flags.quiet {
         return;
     }
-    for Ran { name, made, reused, seconds } in ran.iter().filter(|_| flags.verbose) {
+    for Ran { name, made, reused, seconds } in made.ran.iter().filter(|_| flags.verbose) {
         tell(format_args!("{name}: {made} made, {reused} kept, {seconds:.3} s"));
     }
-    let ([width, height], rays) = (made.frame.0.size, made.counts.rays_per_pixel);
+    let ([width, height], rays) = (made.picture.size, counts.rays_per_pixel);
     let out = if outputs::is_standard(out) {
         "standard output".into()
     } else {

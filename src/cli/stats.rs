@@ -28,7 +28,7 @@ pub struct Stats<'a> {
 }
 
 /// Facts about the picture: the same on every machine, for any number of threads.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Counted {
     #[serde(flatten)]
     cast: Counts,
