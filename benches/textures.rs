@@ -2,7 +2,7 @@
 
 use divan::{Bencher, black_box};
 use gelray::components::{TextureFilter, Wrap};
-use gelray::polygon::texture::{Footprint, Texture};
+use gelray::polygon::texture::{Footprint, MappedTexture};
 use gelray::view::picture::Picture;
 use glam::DVec2;
 
@@ -13,11 +13,11 @@ fn main() {
     divan::main();
 }
 
-fn texture(filter: TextureFilter) -> Texture {
+fn texture(filter: TextureFilter) -> MappedTexture {
     let value = |i: usize| (i * 7919 % 101) as f32 / 101.0;
     let pixels = (0..512 * 512).map(|i| [value(i), value(i + 1), value(i + 2), 1.0]).collect();
     let picture = Picture::new([512; 2], pixels).expect("a square picture");
-    Texture::new(&picture, Wrap::Repeat, filter)
+    MappedTexture::new(&picture, Wrap::Repeat, filter)
 }
 
 fn footprint(texels: f64) -> Footprint {

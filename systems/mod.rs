@@ -15,10 +15,10 @@ macro_rules! stages {
 stages! {
     ranges::FindRanges,
     prefilter::Prefilter,
-    classify::Classify,
+    classify::ClassifyVoxels,
     shade::Shade,
     scan_convert::ScanConvert,
-    matte::Matte,
+    matte::MattePolygons,
     light_sweep::LightSweep,
     relight::Relight,
     pyramid::StackPyramid,

@@ -1,10 +1,10 @@
-//! Texture filters measured against brute force: what each errs and costs, and what none may do (algorithm §7).
+//! MappedTexture filters measured against brute force: what each errs and costs, and what none may do (algorithm §7).
 
 use std::time::Instant;
 
 use gelray::components::TextureFilter::{self, Bilinear, Ellipse, Nearest, Trilinear};
 use gelray::components::Wrap;
-use gelray::polygon::texture::{Footprint, Texture};
+use gelray::polygon::texture::{Footprint, MappedTexture};
 use gelray::view::picture::Picture;
 use glam::{DMat2, DVec2, DVec4, Vec4};
 
@@ -54,7 +54,7 @@ fn tilted(scale: f64, angle: f64, turn: f64, size: f64) -> Footprint {
 }
 
 /// The mean of 32 × 32 lookups, jittered each in its own part of the footprint.
-fn brute_force(texture: &Texture, uv: DVec2, footprint: &Footprint) -> Vec4 {
+fn brute_force(texture: &MappedTexture, uv: DVec2, footprint: &Footprint) -> Vec4 {
     let sides = footprint.sides();
     let sample = |i: u64| {
         let place = DVec2::new((i % 32) as f64 + hash(2 * i), (i / 32) as f64 + hash(2 * i + 1));
@@ -70,7 +70,7 @@ struct Measured {
 }
 
 /// Lookups at places and turns of all kinds, against brute force over the same footprints by the texture's own filter.
-fn measure(truth: &Texture, scale: f64, angle: f64) -> Measured {
+fn measure(truth: &MappedTexture, scale: f64, angle: f64) -> Measured {
     let places: Vec<_> = (0..LOOKUPS)
         .map(|i| {
             let uv = DVec2::new(hash(7 * i + 1), hash(7 * i + 2));
@@ -131,7 +131,7 @@ fn pooled<'a>(rows: impl Iterator<Item = &'a Measured>) -> [f64; 5] {
 fn table(truth: TextureFilter, scales: &[f64]) -> Vec<(&'static str, Vec<Measured>)> {
     let mut all = vec![];
     for (name, picture) in patterns() {
-        let texture = Texture::new(&picture, Wrap::Repeat, truth);
+        let texture = MappedTexture::new(&picture, Wrap::Repeat, truth);
         print_heading(&format!("{name}, against 1024 {truth:?} lookups"));
         let mut rows = vec![];
         for angle in ANGLES {
@@ -181,7 +181,8 @@ fn spread(lookup: impl Fn(DVec2, &Footprint) -> Vec4, footprint: &Footprint) -> 
 
 #[test]
 fn a_checker_of_one_texel_at_a_grazing_angle_is_an_even_grey_without_moire() {
-    let [ellipse, nearest] = [Ellipse, Nearest].map(|f| Texture::new(&checker(1), Wrap::Repeat, f));
+    let [ellipse, nearest] =
+        [Ellipse, Nearest].map(|f| MappedTexture::new(&checker(1), Wrap::Repeat, f));
     println!("\nangle  texels  turn   average   ellipse   nearest: standard deviation over pixels");
     for angle in [75.0, 85.0, 88.0] {
         for (scale, turn) in [(1.9, 0.0), (2.3, 33.0), (4.1, 10.0), (7.7, 45.0)] {

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use gelray::Error;
 use gelray::Renderer;
-use gelray::formats::moving::Clip;
+use gelray::formats::moving::Movie;
 use gelray::scene::{Loads, Source};
 use gelray::sequence::film::Film;
 use gelray::sequence::manifest::Manifest;
@@ -97,7 +97,7 @@ impl Work<'_> {
         let (todo, data) = self.prepare()?;
         let loaded = start.elapsed().as_secs_f64();
         self.interrupt.work_begins();
-        let clip = Clip {
+        let clip = Movie {
             size: self.film.size(),
             count: self.film.range().count(),
             rate: self.motion.fps,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use gelray::Error;
-use gelray::formats::moving::{Clip, Rate};
+use gelray::formats::moving::{Movie, Rate};
 use gelray::formats::pictures::read_picture;
 use gelray::sequence::manifest::Manifest;
 use gelray::sequence::pipeline::{self, Feed, RenderFault, Shot, Stopped};
@@ -47,7 +47,7 @@ pub fn run(frames: &Path, rate: Option<Rate>, flags: &Flags) -> Result<(), Failu
         Some(first) => read_picture(&folder.join(&first.file))?.size,
         None => return Err(Error::file(frames, "lists no frame; render them again").into()),
     };
-    let clip = Clip { size, count: manifest.frames.len(), rate };
+    let clip = Movie { size, count: manifest.frames.len(), rate };
     let sent = pipeline::run(
         |feed| send(&folder, &manifest, &interrupt, feed),
         |shots| target.encode(&clip, shots),

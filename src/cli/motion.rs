@@ -2,15 +2,15 @@
 
 use clap::{Args, ValueEnum};
 use gelray::formats::moving::Rate;
-use gelray::sequence::range::{Range, Shard};
+use gelray::sequence::range::{FrameRange, Shard};
 use gelray::sequence::turn;
 
 /// What `animate` takes beside the flags of all verbs.
 #[derive(Debug, Args)]
 pub struct Motion {
     /// Frames of a full turn (72), or degrees FROM..TOxSTEP (0..90x5)
-    #[arg(long, value_name = "N|FROM..TOxSTEP", default_value = "72", value_parser = Range::parse, allow_hyphen_values = true)]
-    pub frames: Range,
+    #[arg(long, value_name = "N|FROM..TOxSTEP", default_value = "72", value_parser = FrameRange::parse, allow_hyphen_values = true)]
+    pub frames: FrameRange,
     /// What the observer turns about [default: azimuth; keyframes, where the scene states `animate`]
     #[arg(long, value_enum)]
     axis: Option<Axis>,

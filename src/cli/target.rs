@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gelray::Error;
 use gelray::formats::moving::{
-    Clip, Frames, MOVING_FORMATS, check_clip, moving_format_of, write_clip, y4m,
+    Frames, MOVING_FORMATS, Movie, check_clip, moving_format_of, write_clip, y4m,
 };
 use gelray::formats::pictures::encoded::to_bytes;
 use gelray::formats::pictures::write_picture;
@@ -56,7 +56,7 @@ impl<'a> Target<'a> {
     }
 
     /// Writes the pictures that come to where they belong.
-    pub fn encode(&self, clip: &Clip, shots: &mut Shots) -> Result<(), Error> {
+    pub fn encode(&self, clip: &Movie, shots: &mut Shots) -> Result<(), Error> {
         match self {
             Self::Frames(numbered) => write_frames(numbered, shots),
             Self::Clip(path) => write_clip(path, clip, &mut Stream(shots)),
@@ -165,7 +165,7 @@ impl Iterator for Stream<'_, '_> {
 }
 
 /// YUV4MPEG2 to standard output.
-fn pipe(clip: &Clip, frames: Frames) -> Result<(), Error> {
+fn pipe(clip: &Movie, frames: Frames) -> Result<(), Error> {
     y4m::write(&mut std::io::stdout().lock(), clip, frames).map_err(|failure| {
         match failure.downcast::<Error>() {
             Ok(error) => *error,

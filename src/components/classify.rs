@@ -25,7 +25,7 @@ pub struct Classify<L = f32> {
     pub gradient: Vec<[f32; 2]>,
     /// A mixture of materials after Drebin, Carpenter and Hanrahan 1988.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub materials: Vec<Material>,
+    pub materials: Vec<MixtureMaterial>,
     /// One of the classifications that have names.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<Preset>,
@@ -155,7 +155,7 @@ pub struct TransferPoint {
 /// One material of a mixture: its probability as a function of the scalar, and what it looks like.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Material {
+pub struct MixtureMaterial {
     /// Piecewise-linear `[value, probability]` pairs in rising order of value; probabilities of all materials are scaled to sum to at most 1.
     #[schemars(length(min = 1))]
     pub probability: Vec<[f32; 2]>,

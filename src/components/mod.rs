@@ -23,9 +23,7 @@ mod view;
 mod volume;
 
 pub use animate::{Animate, Ease, Keyed, Track};
-pub use classify::{
-    Classify, Contour, Form, Level, Material as ClassifyMaterial, Tissue, TransferPoint,
-};
+pub use classify::{Classify, Contour, Form, Level, MixtureMaterial, Tissue, TransferPoint};
 pub use clip::Clip;
 pub use color::Color;
 pub use furniture::{BoundingBox, Callout, Corner, Legend, LegendEntry, ScaleBar, Title};

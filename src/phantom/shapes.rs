@@ -6,7 +6,7 @@
 /// One entry of a table of anatomy: a shape, and how it changes what was laid before it.
 #[derive(Debug, Clone, Copy)]
 pub struct Piece {
-    pub form: Form,
+    pub form: Shape,
     pub center: [f32; 3],
     yaw_degrees: f32,
     pitch_degrees: f32,
@@ -17,14 +17,14 @@ pub struct Piece {
 
 /// The shape of a piece, about its centre or from it; lengths in millimetres.
 #[derive(Debug, Clone, Copy)]
-pub enum Form {
+pub enum Shape {
     Ellipsoid { radii: [f32; 3] },
     Block { half: [f32; 3], round: f32 },
     Capsule { to: [f32; 3], radii: [f32; 2] },
 }
 
 impl Piece {
-    const fn new(center: [f32; 3], form: Form) -> Self {
+    const fn new(center: [f32; 3], form: Shape) -> Self {
         Self {
             form,
             center,
@@ -38,17 +38,17 @@ impl Piece {
 
     /// An ellipsoid.
     pub const fn ellipsoid(center: [f32; 3], radii: [f32; 3]) -> Self {
-        Self::new(center, Form::Ellipsoid { radii })
+        Self::new(center, Shape::Ellipsoid { radii })
     }
 
     /// A box of half sides `half`, its edges rounded by `round` within them.
     pub const fn block(center: [f32; 3], half: [f32; 3], round: f32) -> Self {
-        Self::new(center, Form::Block { half, round })
+        Self::new(center, Shape::Block { half, round })
     }
 
     /// A rod with round ends from `from` to `to`, of one radius at each end.
     pub const fn capsule(from: [f32; 3], to: [f32; 3], radii: [f32; 2]) -> Self {
-        Self::new(from, Form::Capsule { to, radii })
+        Self::new(from, Shape::Capsule { to, radii })
     }
 
     /// Blended into what was laid before over `soft` mm.
@@ -80,7 +80,7 @@ impl Piece {
     pub fn mirror(mut self) -> Self {
         self.center[0] = -self.center[0];
         self.yaw_degrees = -self.yaw_degrees;
-        if let Form::Capsule { to, .. } = &mut self.form {
+        if let Shape::Capsule { to, .. } = &mut self.form {
             to[0] = -to[0];
         }
         self

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::shapes::{Form, Piece, block, dot, ellipsoid, length, smooth_union};
+use super::shapes::{Piece, Shape, block, dot, ellipsoid, length, smooth_union};
 
 /// Farther than anything: the distance before any piece is laid.
 pub const FAR: f32 = 1e3;
@@ -31,9 +31,9 @@ impl Placed {
                 (0..3).map(|row| axes[row][axis].abs() * sides[row]).sum::<f32>() + margin
             };
             let (below, above) = match piece.form {
-                Form::Ellipsoid { radii } => (-across(radii), across(radii)),
-                Form::Block { half, .. } => (-across(half), across(half)),
-                Form::Capsule { to, radii } => {
+                Shape::Ellipsoid { radii } => (-across(radii), across(radii)),
+                Shape::Block { half, .. } => (-across(half), across(half)),
+                Shape::Capsule { to, radii } => {
                     let step = to[axis] - center[axis];
                     let around = margin + radii[0].max(radii[1]);
                     (step.min(0.0) - around, step.max(0.0) + around)
@@ -57,12 +57,12 @@ impl Placed {
         let step = self.axes.map(|row| row[0]);
         let local = |x: f32| -> [f32; 3] { std::array::from_fn(|i| start[i] + x * step[i]) };
         match form {
-            Form::Ellipsoid { radii } => {
+            Shape::Ellipsoid { radii } => {
                 let scale = radii.map(|r| 1.0 / r);
                 self.fold(xs, out, |x| ellipsoid(local(x), scale));
             }
-            Form::Block { half, round } => self.fold(xs, out, |x| block(local(x), half, round)),
-            Form::Capsule { to, radii } => {
+            Shape::Block { half, round } => self.fold(xs, out, |x| block(local(x), half, round)),
+            Shape::Capsule { to, radii } => {
                 let along = [to[0] - cx, to[1] - cy, to[2] - cz];
                 let scale = 1.0 / dot(along, along);
                 self.fold(xs, out, |x| {

@@ -6,7 +6,7 @@ use super::coverage::{Flat, REACH};
 use super::face::Faces;
 use crate::components::{Classify, Clip, Material, Surface, TexelKind, Voxelize};
 use crate::schedule::Watch;
-use crate::volume::bricks::{self, Place};
+use crate::volume::bricks::{self, BrickPlace};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::gel;
@@ -32,7 +32,7 @@ impl MayHold {
         let counts = bricks::counts(size);
         let place = |at: usize| {
             let [nx, ny, _] = counts;
-            Place::new([at % nx, at / nx % ny, at / (nx * ny)], size)
+            BrickPlace::new([at % nx, at / nx % ny, at / (nx * ny)], size)
         };
         let all = counts.iter().product();
         let held = match volume.content {
@@ -102,7 +102,7 @@ impl MayHold {
 fn classified(
     world: &World,
     volume: &SceneVolume,
-    places: impl ExactSizeIterator<Item = Place>,
+    places: impl ExactSizeIterator<Item = BrickPlace>,
 ) -> Vec<bool> {
     type Stated<'a> = (&'a Scalars, &'a Classify, Option<&'a Clip>, Option<&'a Ranges>);
     let mut found = world.query_one::<Stated<'_>>(volume.entity);

@@ -10,12 +10,12 @@ use super::fault::{Fault, Notice};
 use super::fill::{Became, fill, fill_from, withdraw};
 use crate::components::{self, Name, Polygon, Textured, Voxelize};
 use crate::phantom;
-use crate::polygon::texture::{Texture, TexturedBy};
+use crate::polygon::texture::{MappedTexture, TexturedBy};
 use crate::view::picture::Picture;
 
 /// What a texture on a polygon is made of: the statement, the texels of the entity that it names (else it names a
 /// formula), and three corners of the polygon.
-type Named = (Textured, Option<Texture>, Option<[[f64; 3]; 3]>);
+type Named = (Textured, Option<MappedTexture>, Option<[[f64; 3]; 3]>);
 
 /// Gives every entity that states `textured` the texture itself.
 pub(super) fn fill_in(world: &mut World, notices: &mut Vec<Notice>) -> Result<(), Fault> {
@@ -76,17 +76,17 @@ fn texels(
     world: &mut World,
     carrier: Entity,
     textured: &Textured,
-) -> Result<Option<Texture>, Fault> {
+) -> Result<Option<MappedTexture>, Fault> {
     let Textured { wrap, filter, .. } = *textured;
-    fill_from(world, carrier, |picture: &Picture| Ok(Texture::new(picture, wrap, filter)))?;
-    Ok(get::<Texture>(world, carrier))
+    fill_from(world, carrier, |picture: &Picture| Ok(MappedTexture::new(picture, wrap, filter)))?;
+    Ok(get::<MappedTexture>(world, carrier))
 }
 
 /// The texture of an entity, where it lies. A formula is made once for all that name it.
 fn laid(
     entity: Entity,
     (textured, texels, corners): &Named,
-    formulas: &mut HashMap<String, Texture>,
+    formulas: &mut HashMap<String, MappedTexture>,
 ) -> Result<TexturedBy, Fault> {
     let Textured { wrap, filter, texture: name, .. } = textured;
     let texture = match (texels, formulas.get(name)) {
@@ -94,7 +94,7 @@ fn laid(
         (None, None) => {
             let missing = |problem| Fault::of(entity, "textured", "texture", problem);
             let picture = phantom::texture(name).map_err(missing)?;
-            let texture = Texture::new(&picture, *wrap, *filter);
+            let texture = MappedTexture::new(&picture, *wrap, *filter);
             formulas.insert(name.clone(), texture.clone());
             texture
         }

@@ -43,7 +43,7 @@ fn one(document: &mut DocumentMut, names: &[String], change: &str) -> Result<(),
     };
     let entity = entity(document, names, name, row)?;
     let steps: Vec<_> = steps.collect();
-    let place = Place { path: row.key.to_owned(), schema: row.schema().clone() };
+    let place = Assignment { path: row.key.to_owned(), schema: row.schema().clone() };
     let entry = entity.as_table_like_mut().ok_or("the entity is no table; write `[[entity]]`")?;
     set(entry.entry(row.key).or_insert(Item::None), &place, &steps, value)
 }
@@ -123,12 +123,12 @@ fn observer(tables: &mut Item, names: &[String], name: &str, row: &Row) -> Resul
 }
 
 /// A place in a component: its path for sentences, and what is allowed there.
-struct Place {
+struct Assignment {
     path: String,
     schema: Schema,
 }
 
-impl Place {
+impl Assignment {
     /// What stands one step further; the error lists what would be right.
     fn step(&self, step: &str, length: usize) -> Result<Self, String> {
         let path = format!("{}.{step}", self.path);
@@ -157,7 +157,7 @@ impl Place {
 }
 
 /// Follows the steps into an item, creating what is not there yet, and puts the value at their end.
-fn set(item: &mut Item, place: &Place, steps: &[&str], value: Value) -> Result<(), String> {
+fn set(item: &mut Item, place: &Assignment, steps: &[&str], value: Value) -> Result<(), String> {
     let Some((step, rest)) = steps.split_first() else {
         if !keys(&place.schema).is_empty()
             && items(&place.schema).is_none()
@@ -197,7 +197,11 @@ fn set(item: &mut Item, place: &Place, steps: &[&str], value: Value) -> Result<(
 }
 
 /// An item of an array, put in at the end if it is the next.
-fn existing_or_new<'i>(item: &'i mut Item, index: usize, next: &Place) -> Option<&'i mut Item> {
+fn existing_or_new<'i>(
+    item: &'i mut Item,
+    index: usize,
+    next: &Assignment,
+) -> Option<&'i mut Item> {
     if item.get(index).is_none() {
         let new: Value =
             if keys(&next.schema).is_empty() { 0.into() } else { InlineTable::new().into() };
@@ -210,7 +214,7 @@ fn existing_or_new<'i>(item: &'i mut Item, index: usize, next: &Place) -> Option
     item.get_mut(index)
 }
 
-fn mismatch(place: &Place) -> String {
+fn mismatch(place: &Assignment) -> String {
     format!(
         "the scene states `{}` as a single value; set it whole, as VALUE or {{ key = value }}",
         place.path

@@ -2,7 +2,7 @@
 
 use hecs::World;
 
-use super::range::Range;
+use super::range::FrameRange;
 use super::tracks::value;
 use super::turn::{Axis, turned};
 use crate::components::{Animate, Name, Order, Track, View};
@@ -20,7 +20,7 @@ pub struct Film {
     kept: Kept,
     /// The scene as it stands now: as stated, then as the picture that was last shown sets it.
     pub scene: Scene,
-    range: Range,
+    range: FrameRange,
     axis: Option<Axis>,
     /// The name of the view, and what it states before anything turns.
     view: (String, View),
@@ -38,7 +38,7 @@ impl Film {
     pub fn open(
         loads: Loads,
         changes: Vec<String>,
-        range: Range,
+        range: FrameRange,
         axis: Option<Axis>,
     ) -> Result<Self, Error> {
         let mut kept = Kept::default();
@@ -67,7 +67,7 @@ impl Film {
 
     /// The pictures of the sequence.
     #[must_use]
-    pub fn range(&self) -> &Range {
+    pub fn range(&self) -> &FrameRange {
         &self.range
     }
 
@@ -204,7 +204,7 @@ mod tests {
         );
         let source = Source::inline("s", text);
         let loads = Loads { data: Vec::new(), exact: false, most_bytes: None, source };
-        Film::open(loads, Vec::new(), Range::turn(8), None).unwrap()
+        Film::open(loads, Vec::new(), FrameRange::turn(8), None).unwrap()
     }
 
     /// What each picture says of the height of its window, as TOML.

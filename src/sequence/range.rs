@@ -5,7 +5,7 @@ const MOST: usize = 1_000_000;
 
 /// The pictures of a sequence: degrees from `from` on, by `step`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Range {
+pub struct FrameRange {
     from: f64,
     to: f64,
     count: usize,
@@ -13,7 +13,7 @@ pub struct Range {
     step: Option<f64>,
 }
 
-impl Range {
+impl FrameRange {
     /// A full turn in `count` pictures, each once: the next would be the first again.
     #[must_use]
     pub fn turn(count: usize) -> Self {
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     fn degrees(text: &str) -> Vec<f64> {
-        let range = Range::parse(text).unwrap();
+        let range = FrameRange::parse(text).unwrap();
         (0..range.count()).map(|number| range.degrees(number)).collect()
     }
 
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn parts_go_from_0_to_1_at_the_last_degree() {
-        let part = |text, number| Range::parse(text).unwrap().part(number);
+        let part = |text, number| FrameRange::parse(text).unwrap().part(number);
         assert_eq!((part("0..90x45", 0), part("0..90x45", 2)), (0.0, 1.0));
         assert_eq!((part("90..0x45", 1), part("72", 36), part("5..5x1", 0)), (0.5, 0.5, 0.0));
     }
@@ -159,7 +159,7 @@ mod tests {
             "0..1e6x1e-6",
             "0..1e999x1",
         ] {
-            assert!(Range::parse(text).is_err(), "{text}");
+            assert!(FrameRange::parse(text).is_err(), "{text}");
         }
         for text in ["", "0/2", "3/2", "1", "1/0", "a/b", "-1/2"] {
             assert!(Shard::parse(text).is_err(), "{text}");

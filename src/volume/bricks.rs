@@ -39,7 +39,7 @@ impl<T> PartialEq for Bricks<T> {
 
 /// The first voxel and the extent of a brick: what lies outside the grid is left out of `extent`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
+pub struct BrickPlace {
     /// The brick, counted in bricks.
     pub brick: [usize; 3],
     /// Its first voxel.
@@ -48,7 +48,7 @@ pub struct Place {
     pub extent: [usize; 3],
 }
 
-impl Place {
+impl BrickPlace {
     /// A brick of a grid of `size` voxels.
     #[must_use]
     pub fn new(brick: [usize; 3], size: [usize; 3]) -> Self {
@@ -75,7 +75,7 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
     /// `make` fills one brick, which comes zeroed (`T::default()`), and says whether it is to be stored.
     pub fn make(
         size: [usize; 3],
-        make: impl Fn(Place, &mut [T; VOXELS]) -> bool + Send + Sync,
+        make: impl Fn(BrickPlace, &mut [T; VOXELS]) -> bool + Send + Sync,
     ) -> Self {
         Self::make_where(size, |_| true, make)
     }
@@ -83,8 +83,8 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
     /// [`Bricks::make`], of which the bricks that `may_hold` denies are neither made nor stored.
     pub fn make_where(
         size: [usize; 3],
-        may_hold: impl Fn(Place) -> bool + Send + Sync,
-        make: impl Fn(Place, &mut [T; VOXELS]) -> bool + Send + Sync,
+        may_hold: impl Fn(BrickPlace) -> bool + Send + Sync,
+        make: impl Fn(BrickPlace, &mut [T; VOXELS]) -> bool + Send + Sync,
     ) -> Self {
         let counts = size.map(|n| n.div_ceil(EDGE));
         let per_layer = counts[0] * counts[1];
@@ -93,7 +93,7 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
             let mut stored = Vec::new();
             let mut brick = [T::default(); VOXELS];
             for (at, entry) in table.iter_mut().enumerate() {
-                let place = Place::new([at % counts[0], at / counts[0], z], size);
+                let place = BrickPlace::new([at % counts[0], at / counts[0], z], size);
                 if !may_hold(place) {
                     continue;
                 }
@@ -113,9 +113,9 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
     /// Values made voxel by voxel in the bricks that `self` stores, and in no other.
     pub fn map<U: Copy + Default + Send + Sync>(
         &self,
-        make: impl Fn(Place, &[T; VOXELS], &mut [U; VOXELS]) + Send + Sync,
+        make: impl Fn(BrickPlace, &[T; VOXELS], &mut [U; VOXELS]) + Send + Sync,
     ) -> Bricks<U> {
-        let is_stored = |place: Place| self.brick(place.brick).is_some();
+        let is_stored = |place: BrickPlace| self.brick(place.brick).is_some();
         Bricks::make_where(self.size(), is_stored, |place, made| {
             self.brick(place.brick).is_some_and(|brick| {
                 make(place, brick, made);
@@ -154,11 +154,11 @@ impl<T> Bricks<T> {
     }
 
     /// Every stored brick, in the order of the table.
-    pub fn stored(&self) -> impl Iterator<Item = (Place, &[T; VOXELS])> {
+    pub fn stored(&self) -> impl Iterator<Item = (BrickPlace, &[T; VOXELS])> {
         let [nx, ny, _] = self.0.counts;
         (0..self.0.table.len()).filter_map(move |at| {
             let brick = [at % nx, at / nx % ny, at / (nx * ny)];
-            self.brick(brick).map(|values| (Place::new(brick, self.0.size), values))
+            self.brick(brick).map(|values| (BrickPlace::new(brick, self.0.size), values))
         })
     }
 
@@ -195,7 +195,7 @@ mod tests {
             place.voxels().for_each(|(at, voxel)| brick[at] = number(voxel));
             place.brick[0] != 1
         });
-        for (_, voxel) in (Place { brick: [0; 3], first: [0; 3], extent: size }).voxels() {
+        for (_, voxel) in (BrickPlace { brick: [0; 3], first: [0; 3], extent: size }).voxels() {
             let expected = if voxel[0] / EDGE == 1 { 0 } else { number(voxel) };
             assert_eq!(bricks.value(voxel), expected, "{voxel:?}");
         }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::band::{Band, cut};
 use super::lanes::{LANES, Packet, SIDE, each};
-use super::level::Level;
+use super::level::Regions;
 use super::preview::Preview;
 use super::targets::{Caster, Outlines, RayColors};
 use crate::components::Sampling;
@@ -64,7 +64,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
             self.open(|_, _| true);
         }
         self.cast_where(layout.coarsest, |_, _| true, watch, preview.as_deref())?;
-        let mut parent: Option<Level> = None;
+        let mut parent: Option<Regions> = None;
         let mut side = layout.coarsest;
         while side > finest && (side > POSITIONS || self.edges.is_some()) {
             if let Some(preview) = &mut preview {
@@ -104,9 +104,9 @@ impl<'a, C: Caster> Refinement<'a, C> {
     }
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
-    fn decide(&self, side: usize, parent: Option<&Level>) -> Level {
+    fn decide(&self, side: usize, parent: Option<&Regions>) -> Regions {
         let layout = &self.array.layout;
-        let mut level = Level::new(layout.regions.map(|n| n * layout.coarsest / side), side);
+        let mut level = Regions::new(layout.regions.map(|n| n * layout.coarsest / side), side);
         let across = level.across;
         let rows = level.split.par_chunks_mut(across).zip(level.edges.par_chunks_mut(across));
         rows.enumerate().for_each(|(y, (split, edges))| {

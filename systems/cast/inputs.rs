@@ -55,14 +55,14 @@ pub struct TracedPolygons {
 #[derive(PartialEq)]
 pub struct Placed {
     pub grid: Grid,
-    pub content: Content,
+    pub content: Sampled,
     pub pyramid: Option<Pyramid>,
     pub unit: f64,
 }
 
 /// What rays sample of a volume.
 #[derive(PartialEq)]
-pub enum Content {
+pub enum Sampled {
     Gel(Gel),
     Values(Box<StatedValues>),
 }
@@ -151,9 +151,9 @@ fn shafts(world: &World) -> Vec<StatedShaft> {
 fn placed(world: &World, filter: Filter) -> Vec<Placed> {
     let placed = |SceneVolume { entity, grid, unit, content }| {
         let content = if content == scene_volumes::Content::Values {
-            Content::Values(Box::new(values(world, entity, filter)?))
+            Sampled::Values(Box::new(values(world, entity, filter)?))
         } else {
-            Content::Gel((*world.get::<&Gel>(entity).ok()?).clone())
+            Sampled::Gel((*world.get::<&Gel>(entity).ok()?).clone())
         };
         let pyramid = world.get::<&Pyramid>(entity).ok().map(|pyramid| (*pyramid).clone());
         Some(Placed { grid, content, pyramid, unit })

@@ -18,7 +18,7 @@ const BRICK_BITS: u32 = CELLS.trailing_zeros();
 
 /// What rays sample.
 #[derive(Clone, Copy)]
-pub struct Gel<'a, T> {
+pub struct GelSlices<'a, T> {
     /// The gel.
     pub texels: TexelSlices<'a, T>,
     /// The ambient part of its colour, where it is apart.
@@ -85,7 +85,7 @@ impl Places {
 #[inline(always)]
 pub fn meet<S: Simd, T: Texel>(
     simd: S,
-    gel: Gel<'_, T>,
+    gel: GelSlices<'_, T>,
     fade: Option<f32>,
     tile: &Tile,
     (k, lanes): (i64, Lanes),

@@ -3,7 +3,7 @@
 use crate::view::samples::POSITIONS;
 
 /// The regions of `side` positions, x fastest.
-pub struct Level {
+pub struct Regions {
     /// Positions along a region's side.
     pub side: usize,
     /// Regions across.
@@ -14,7 +14,7 @@ pub struct Level {
     pub edges: Vec<bool>,
 }
 
-impl Level {
+impl Regions {
     /// A level of `across × down` regions, none of them split.
     pub fn new([across, down]: [usize; 2], side: usize) -> Self {
         let none = vec![false; across * down];

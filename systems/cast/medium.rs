@@ -37,7 +37,7 @@ pub trait Source: Sync {
     }
 }
 
-impl<T: Texel> Source for kernel::Gel<'_, T> {
+impl<T: Texel> Source for kernel::GelSlices<'_, T> {
     #[inline]
     fn meet(
         &self,

@@ -58,7 +58,7 @@ use appearance::Appearance;
 use beams::Beams;
 use caster::BeamCaster;
 use cue::Cue;
-use inputs::{Content, Inputs, Placed};
+use inputs::{Inputs, Placed, Sampled};
 use march::Slabs;
 use media::{Media, Nothing};
 use medium::{Medium, Source};
@@ -210,8 +210,8 @@ impl<'a> SharedView<'a> {
         dust: Option<&'a Dust>,
     ) -> Result<Option<AnyMedium<'a>>, Error> {
         let Gel { lit, ambient } = match &placed.content {
-            Content::Gel(gel) => gel,
-            Content::Values(stated) => {
+            Sampled::Gel(gel) => gel,
+            Sampled::Values(stated) => {
                 let values = Values::new(stated, (&placed.grid, placed.unit), self.steps(placed));
                 let medium = self.of(placed, values, dust)?;
                 return Ok(medium.map(|medium| AnyMedium::Values(Box::new(medium))));
@@ -243,10 +243,10 @@ impl<'a> SharedView<'a> {
         lit: &'a Texels<T>,
         ambient: Option<&'a Texels<T>>,
         dust: Option<&'a Dust>,
-    ) -> Result<Option<Medium<'a, kernel::Gel<'a, T>>>, Error> {
+    ) -> Result<Option<Medium<'a, kernel::GelSlices<'a, T>>>, Error> {
         let (texels, ambient) = (lit.slices(), ambient.map(Texels::slices));
         let pyramid = self.steps(placed);
-        self.of(placed, kernel::Gel { texels, ambient, pyramid }, dust)
+        self.of(placed, kernel::GelSlices { texels, ambient, pyramid }, dust)
     }
 
     /// What steps over empty parts of a volume.

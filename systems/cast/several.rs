@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec4};
 
-use super::kernel::Gel;
+use super::kernel::GelSlices;
 use super::lanes::{Lanes, Packet};
 use super::media::Media;
 use super::medium::{Entered, Medium, slab};
@@ -14,11 +14,11 @@ use crate::view::samples::Counts;
 /// A volume in whatever numbers its gel is kept, or without.
 pub enum AnyMedium<'a> {
     /// 32-bit floats.
-    F32(Medium<'a, Gel<'a, [f32; 4]>>),
+    F32(Medium<'a, GelSlices<'a, [f32; 4]>>),
     /// 16-bit fixed point.
-    U16(Medium<'a, Gel<'a, [u16; 4]>>),
+    U16(Medium<'a, GelSlices<'a, [u16; 4]>>),
     /// 8-bit fixed point.
-    U8(Medium<'a, Gel<'a, [u8; 4]>>),
+    U8(Medium<'a, GelSlices<'a, [u8; 4]>>),
     /// No gel: values, classified at samples.
     Values(Box<Medium<'a, Values<'a>>>),
 }

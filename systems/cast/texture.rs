@@ -5,14 +5,14 @@ use glam::Vec4;
 use crate::components::Textured;
 use crate::polygon::face::Face;
 use crate::polygon::texture::TexturedBy;
-use crate::polygon::texture::{Footprint, Mapping, Texture};
+use crate::polygon::texture::{Footprint, MappedTexture, Mapping};
 use crate::view::camera::Camera;
 use crate::view::ray::Ray;
 use crate::view::samples::POSITIONS;
 
 /// A texture on a face, as a view sees it.
 pub struct FaceTexture {
-    texture: Texture,
+    texture: MappedTexture,
     mapping: Mapping,
     camera: Camera,
     /// What a ray stands for, in the texture: a pixel, half a pixel, a quarter. The same all over the face, or in

@@ -12,7 +12,7 @@ use crate::light::shading::{Lamp, Lamps, Reflectance};
 use crate::light::strength::LightStrength;
 use crate::view::composite::{recolor, thicken};
 use crate::view::walk::{FRACTION_BITS, Tile};
-use crate::volume::classification::{Classifier, Surface};
+use crate::volume::classification::{Classifier, SharpContour};
 use crate::volume::clipping::{Cut, Section};
 use crate::volume::field::{Field, Sampled, Spot};
 use crate::volume::gradients::normal;
@@ -30,7 +30,7 @@ pub struct Values<'a> {
     index_to_world: DAffine3,
     classifier: Classifier,
     /// Contours without thickness.
-    surfaces: Vec<Surface>,
+    surfaces: Vec<SharpContour>,
     cut: Option<Cut>,
     lamps: &'a Lamps,
     how: Reflectance,

@@ -6,7 +6,7 @@ use crate::components::{self, Clip, Material, OpacityUnit};
 use crate::error::Error;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
-use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::gradients::Gradients;
@@ -18,7 +18,7 @@ use crate::volume::scene_volumes::{SceneVolume, with_opacities};
 use crate::with_scalars;
 
 /// Makes the [`Opacity`] of every volume that states how it is classified.
-pub struct Classify;
+pub struct ClassifyVoxels;
 
 #[derive(PartialEq)]
 struct Inputs {
@@ -31,7 +31,7 @@ struct Inputs {
     tint: Option<Tint>,
 }
 
-impl System for Classify {
+impl System for ClassifyVoxels {
     type Product = Opacity;
     const NAME: &'static str = "classify";
     const READS: &'static [ProductKey] = &[ProductKey::of::<Ranges>()];
@@ -98,10 +98,10 @@ impl Inputs {
         let classifier = Classifier::new(&stated, &Material::default(), self.unit.0);
         let cut = self.clip.as_ref().map(|clip| Cut::new(clip, &self.grid));
         let gradients = Gradients::new(&self.grid);
-        let left = |place: Place| {
+        let left = |place: BrickPlace| {
             cut.as_ref().map_or(Left::Whole, |cut| cut.left(place.first, place.extent))
         };
-        let may_hold = |place: Place| {
+        let may_hold = |place: BrickPlace| {
             let range = self.ranges.around(place.brick);
             let steepest = gradients.at_most(range.spread, place.first, place.extent);
             classifier.may_show(range, steepest) && left(place) != Left::Nothing
@@ -129,7 +129,7 @@ fn fill<T: Scalar>(
     [nx, ny, _]: [usize; 3],
     gradients: &Gradients,
     classifier: &Classifier,
-    place: Place,
+    place: BrickPlace,
     brick: &mut [f32; VOXELS],
 ) {
     let ([x, y, z], [n, rows, slices]) = (place.first, place.extent);
@@ -147,13 +147,13 @@ fn fill<T: Scalar>(
     }
 }
 
-fn mask_brick(factors: &[f32], grid: &Grid, place: Place, brick: &mut [f32; VOXELS]) {
+fn mask_brick(factors: &[f32], grid: &Grid, place: BrickPlace, brick: &mut [f32; VOXELS]) {
     for (at, voxel) in place.voxels() {
         brick[at] *= factors[grid.offset(voxel)];
     }
 }
 
-fn clip_brick(cut: &Cut, place: Place, brick: &mut [f32; VOXELS]) {
+fn clip_brick(cut: &Cut, place: BrickPlace, brick: &mut [f32; VOXELS]) {
     for (at, voxel) in place.voxels() {
         if brick[at] > 0.0 {
             brick[at] *= cut.factor(voxel);

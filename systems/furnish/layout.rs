@@ -7,7 +7,7 @@ use crate::view::lettering::{Line, set};
 use crate::view::overlay::Canvas;
 
 /// A picture being furnished.
-pub struct Layout {
+pub struct Sheet {
     /// What is drawn on.
     pub canvas: Canvas,
     size: [f32; 2],
@@ -15,7 +15,7 @@ pub struct Layout {
     filled: [f32; 4],
 }
 
-impl Layout {
+impl Sheet {
     /// An empty picture of so many pixels across and down.
     pub fn new(size: [usize; 2]) -> Self {
         let canvas = Canvas::new(size);
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn what_stands_in_one_corner_stands_apart() {
-        let mut layout = Layout::new([200, 100]);
+        let mut layout = Sheet::new([200, 100]);
         let first = layout.place(Corner::BottomRight, [50.0, 20.0]);
         let second = layout.place(Corner::BottomRight, [30.0, 10.0]);
         assert_eq!(first, [147.0, 77.0]);

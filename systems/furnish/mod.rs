@@ -11,7 +11,7 @@ use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::overlay::Overlay;
-use layout::Layout;
+use layout::Sheet;
 
 /// Makes the [`Overlay`] of every view of a scene that states furniture.
 pub struct Furnish;
@@ -106,7 +106,7 @@ fn colors(world: &World, legend: &Legend) -> Result<Vec<(f32, Color)>, Error> {
 
 impl Inputs {
     fn furnish(&self) -> Overlay {
-        let mut layout = Layout::new(self.camera.size);
+        let mut layout = Sheet::new(self.camera.size);
         for drawn in &self.drawn {
             match drawn {
                 Drawn::Bar(bar) => layout.scale_bar(bar, self.camera.pixel),

@@ -48,7 +48,7 @@ impl<'a> Columns<'a> {
         let mut next = std::mem::take(&mut self.next);
         let slot = slice % self.ring.len();
         let mut strengths = std::mem::take(&mut self.ring[slot]);
-        let walk = Walk::new(self, slice, casters);
+        let walk = SweepStep::new(self, slice, casters);
         next.par_chunks_mut(width * ROWS)
             .zip(strengths.par_chunks_mut(width * ROWS))
             .enumerate()
@@ -75,7 +75,7 @@ impl<'a> Columns<'a> {
 }
 
 /// One step of the sweep, from a slice to the next.
-struct Walk<'a> {
+struct SweepStep<'a> {
     columns: &'a Columns<'a>,
     casters: &'a Casters,
     slice: usize,
@@ -87,7 +87,7 @@ struct Walk<'a> {
     shift: [isize; 2],
 }
 
-impl<'a> Walk<'a> {
+impl<'a> SweepStep<'a> {
     fn new(columns: &'a Columns<'a>, slice: usize, casters: &'a Casters) -> Self {
         let shear = columns.shear;
         let (window, was) = (shear.window(slice), shear.window(slice.saturating_sub(1)));

@@ -14,7 +14,7 @@ use crate::polygon::face::Faces;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
-use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, Coverage, Layer, LitColors, Opacity};
 use crate::volume::painting::Painting;
@@ -22,7 +22,7 @@ use crate::volume::scene_volumes::{SceneVolume, around, volumes};
 use matting::{footprint, weights};
 
 /// Makes the [`Composite`] of every volume that some polygon is scan-converted into.
-pub struct Matte;
+pub struct MattePolygons;
 
 /// What a composite is made from: the volume, and the polygons in the order of the scene.
 #[derive(Clone, PartialEq)]
@@ -60,7 +60,7 @@ enum Channel {
     Ambient,
 }
 
-impl System for Matte {
+impl System for MattePolygons {
     type Product = Composite;
     const NAME: &'static str = "matte";
     const READS: &'static [ProductKey] =
@@ -117,7 +117,7 @@ impl Backdrop {
     }
 
     /// Fills in α_V of a brick, which comes zeroed.
-    fn opacity(&self, grid: &Grid, place: Place, made: &mut [f32; VOXELS]) {
+    fn opacity(&self, grid: &Grid, place: BrickPlace, made: &mut [f32; VOXELS]) {
         match self {
             Self::Made(opacity, _) => {
                 made.clone_from_slice(opacity.brick(place.brick).unwrap_or(&[0.0; VOXELS]));
@@ -130,7 +130,13 @@ impl Backdrop {
     }
 
     /// Fills in one of the colours of a brick, which comes zeroed.
-    fn color(&self, grid: &Grid, place: Place, channel: Channel, made: &mut [[f32; 3]; VOXELS]) {
+    fn color(
+        &self,
+        grid: &Grid,
+        place: BrickPlace,
+        channel: Channel,
+        made: &mut [[f32; 3]; VOXELS],
+    ) {
         match self {
             Self::Made(_, colors) => {
                 if let Some(brick) = channel.of(colors).and_then(|bricks| bricks.brick(place.brick))
@@ -151,7 +157,7 @@ fn paint(
     painted: &Painted,
     clip: Option<&Clip>,
     grid: &Grid,
-    place: Place,
+    place: BrickPlace,
     mut tell: impl FnMut(usize, [f32; 4]),
 ) {
     let painting = Painting::new(painted, grid, clip);
@@ -255,7 +261,7 @@ impl Inputs {
     fn matte(
         &self,
         peaks: &[f32],
-        place: Place,
+        place: BrickPlace,
         alpha: &mut [f32; VOXELS],
         mut tell: impl FnMut(&LitColors, usize, [f32; 2], f32),
     ) {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::components::TexelKind;
 use crate::light::strength::VoxelStrength;
-use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
 use crate::volume::gel::{FAINT, GelBricks};
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
@@ -40,7 +40,7 @@ impl LitLayer<'_> {
     fn suited(&self) -> TexelKind {
         let bricks: Vec<_> = self.opacity.stored().collect();
         let opaque = bricks.par_iter().any(|(_, alpha)| alpha.iter().any(|alpha| *alpha > FAINT));
-        let bright = |place: Place| {
+        let bright = |place: BrickPlace| {
             let channel =
                 |bricks: &Bricks<[f32; 3]>| bricks.brick(place.brick).map_or(0.0, brightest);
             let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, |s| s.full);

@@ -84,9 +84,9 @@ fn the_shadows_of_a_head_take_less_than_five_megabytes_where_nothing_reads_the_w
     let mut world = stated(&[HEAD, &plane, KEY, &view(0.0, 0.0, 16, 300.0, "")], &[]);
     let jobs = [
         Job::of::<ranges::FindRanges>(),
-        Job::of::<classify::Classify>(),
+        Job::of::<classify::ClassifyVoxels>(),
         Job::of::<scan_convert::ScanConvert>(),
-        Job::of::<matte::Matte>(),
+        Job::of::<matte::MattePolygons>(),
         Job::of::<LightSweep>(),
     ];
     let schedule = Schedule::new(&jobs).unwrap();

@@ -4,7 +4,7 @@ use gelray::components::{Color, Matte};
 use gelray::components::{Light, Observer, Order, Surface, Toward, View, Voxelize};
 use gelray::polygon::face::Face;
 use gelray::schedule::System;
-use gelray::systems::matte::Matte as MatteSystem;
+use gelray::systems::matte::MattePolygons;
 use gelray::systems::scan_convert::ScanConvert;
 use gelray::volume::grid::Grid;
 use gelray::volume::layer::{Composite, Coverage, Layer};
@@ -161,7 +161,7 @@ fn a_second_run_makes_nothing_and_a_turn_of_the_view_only_what_depends_on_it() {
 
 #[test]
 fn a_plan_says_what_will_be_made_and_bounds_its_bytes() {
-    let plans = |scene: &hecs::World| [ScanConvert::plan(scene), MatteSystem::plan(scene)];
+    let plans = |scene: &hecs::World| [ScanConvert::plan(scene), MattePolygons::plan(scene)];
     let mut scene = world(cube(40));
     assert!(plans(&scene).iter().all(|plan| plan.makes.is_empty()));
     let entity = add(&mut scene, vec![rectangle(DVec3::splat(20.0), DVec3::ONE, 11.0)], 0.5, true);

@@ -35,7 +35,7 @@ pub fn add(world: &mut World, faces: Vec<Face>, opacity: f32, calibrated: bool) 
 
 /// Runs both systems; what was made and what was kept.
 pub fn run(world: &mut World) -> Result<Vec<(u32, u32)>, Error> {
-    let jobs = [Job::of::<scan_convert::ScanConvert>(), Job::of::<matte::Matte>()];
+    let jobs = [Job::of::<scan_convert::ScanConvert>(), Job::of::<matte::MattePolygons>()];
     let ran = Schedule::new(&jobs)?.run(world, &Watch::default())?;
     Ok(ran.iter().map(|ran| (ran.made, ran.reused)).collect())
 }

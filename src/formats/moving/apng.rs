@@ -4,7 +4,7 @@ use std::io::Write;
 
 use png::{BitDepth, BlendOp, ColorType, Encoder, SrgbRenderingIntent};
 
-use super::format::{By, Clip, Frames, MovingFormat};
+use super::format::{By, Frames, Movie, MovingFormat};
 use crate::formats::whole::Failure;
 
 /// Written only: read as a PNG, it is its first frame.
@@ -12,7 +12,7 @@ pub const FORMAT: MovingFormat =
     MovingFormat { name: "APNG", extensions: &["png", "apng"], made: By::Writer(write) };
 
 /// Each frame whole, in place of the one before.
-fn write(sink: &mut dyn Write, clip: &Clip, frames: Frames) -> Result<(), Failure> {
+fn write(sink: &mut dyn Write, clip: &Movie, frames: Frames) -> Result<(), Failure> {
     let [width, height] = clip.size;
     let mut encoder = Encoder::new(sink, u32::try_from(width)?, u32::try_from(height)?);
     encoder.set_color(ColorType::Rgba);

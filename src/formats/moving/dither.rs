@@ -13,7 +13,7 @@ const DOTS: f32 = 0.02;
 
 /// How a color is made of a palette.
 #[derive(Clone, Copy)]
-struct Mixture {
+struct Blend {
     near: usize,
     far: usize,
     /// How much of `far` there is, in 64ths.
@@ -22,7 +22,7 @@ struct Mixture {
 
 /// The places in the palette that show the pixels of a frame `width` pixels across.
 pub fn dithered(pixels: &[[u8; 3]], width: usize, palette: &[Point]) -> Vec<usize> {
-    let mut known: HashMap<[u8; 3], Mixture> = HashMap::new();
+    let mut known: HashMap<[u8; 3], Blend> = HashMap::new();
     let place = |(at, pixel): (usize, &[u8; 3])| {
         let mixture = known.entry(*pixel).or_insert_with(|| mixture(palette, point(*pixel)));
         let threshold = threshold(at % width.max(1), at / width.max(1));
@@ -32,9 +32,9 @@ pub fn dithered(pixels: &[[u8; 3]], width: usize, palette: &[Point]) -> Vec<usiz
 }
 
 /// The color nearest to one, and the other that it is best mixed with: what is left over is small, and so are the dots.
-fn mixture(palette: &[Point], color: Point) -> Mixture {
+fn mixture(palette: &[Point], color: Point) -> Blend {
     let near = nearest(palette, color);
-    let alone = Mixture { near, far: near, share: 0 };
+    let alone = Blend { near, far: near, share: 0 };
     let Some(&first) = palette.get(near) else { return alone };
     let left = minus(color, first);
     let (mut best, mut least) = (alone, dot(left, left));
@@ -48,7 +48,7 @@ fn mixture(palette: &[Point], color: Point) -> Mixture {
         let over = minus(left, way.map(|channel| share * channel));
         let fault = dot(over, over) + DOTS * share * (1.0 - share) * length;
         if fault < least {
-            (best, least) = (Mixture { near, far, share: (share * 64.0).round() as u32 }, fault);
+            (best, least) = (Blend { near, far, share: (share * 64.0).round() as u32 }, fault);
         }
     }
     best

@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use super::format::{By, Clip, Frames, MovingFormat};
+use super::format::{By, Frames, Movie, MovingFormat};
 use super::y4m;
 use crate::error::Error;
 use crate::formats::whole::{Failure, write_by_name};
@@ -54,7 +54,7 @@ pub fn check(path: &Path, arguments: &[&str]) -> Result<(), Error> {
 }
 
 /// Pipes the frames through `ffmpeg`, and puts its file in place when it is whole.
-pub fn write(path: &Path, arguments: &[&str], clip: &Clip, frames: Frames) -> Result<(), Error> {
+pub fn write(path: &Path, arguments: &[&str], clip: &Movie, frames: Frames) -> Result<(), Error> {
     write_by_name(path, |temporary| {
         let mut child = Command::new("ffmpeg")
             .args(INPUT)
@@ -77,7 +77,7 @@ pub fn write(path: &Path, arguments: &[&str], clip: &Clip, frames: Frames) -> Re
 }
 
 /// Writes the frames to the program's input, which is closed at the end; where a frame fails, the program is ended.
-fn pipe(child: &mut Child, clip: &Clip, frames: Frames) -> Result<(), Failure> {
+fn pipe(child: &mut Child, clip: &Movie, frames: Frames) -> Result<(), Failure> {
     let mut input = std::io::BufWriter::new(child.stdin.take().ok_or("`ffmpeg` takes no input")?);
     let written = y4m::write(&mut input, clip, frames);
     if written.is_err() {

@@ -9,11 +9,11 @@ use crate::formats::whole::Failure;
 pub type Frames<'a> = &'a mut dyn Iterator<Item = Result<Vec<u8>, Error>>;
 
 /// Writes a clip to a stream.
-pub type Writer = fn(&mut dyn Write, &Clip, Frames) -> Result<(), Failure>;
+pub type Writer = fn(&mut dyn Write, &Movie, Frames) -> Result<(), Failure>;
 
 /// What a clip is, before its first frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Clip {
+pub struct Movie {
     /// Pixels across and down.
     pub size: [usize; 2],
     /// How many frames there will be.

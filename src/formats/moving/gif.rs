@@ -6,7 +6,7 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, RgbaImage};
 
 use super::dither::dithered;
-use super::format::{By, Clip, Frames, MovingFormat, Rate};
+use super::format::{By, Frames, Movie, MovingFormat, Rate};
 use super::opaque::over_black;
 use super::palette::{palette, points};
 use crate::formats::whole::Failure;
@@ -15,7 +15,7 @@ use crate::formats::whole::Failure;
 pub const FORMAT: MovingFormat =
     MovingFormat { name: "GIF", extensions: &["gif"], made: By::Writer(write) };
 
-fn write(sink: &mut dyn Write, clip: &Clip, frames: Frames) -> Result<(), Failure> {
+fn write(sink: &mut dyn Write, clip: &Movie, frames: Frames) -> Result<(), Failure> {
     let [width, height] = clip.size;
     if width > usize::from(u16::MAX) || height > usize::from(u16::MAX) {
         return Err("a GIF has at most 65535 pixels a side".into());

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::formats::whole::{check_writable, write_whole};
-pub use format::{By, Clip, Frames, MovingFormat, Rate, Writer};
+pub use format::{By, Frames, Movie, MovingFormat, Rate, Writer};
 
 /// Every known format of moving pictures.
 pub static MOVING_FORMATS: [MovingFormat; 5] =
@@ -49,7 +49,7 @@ pub fn check_clip(path: &Path) -> Result<(), Error> {
 }
 
 /// Writes a clip in the format that the name's extension says, whole or not at all.
-pub fn write_clip(path: &Path, clip: &Clip, frames: Frames) -> Result<(), Error> {
+pub fn write_clip(path: &Path, clip: &Movie, frames: Frames) -> Result<(), Error> {
     match moving_format(path)?.made {
         By::Writer(write) => write_whole(path, |sink| {
             let mut sink: &mut dyn crate::formats::whole::Sink = sink;

@@ -8,7 +8,7 @@ use image::codecs::png::PngDecoder;
 
 use super::*;
 
-const CLIP: Clip = Clip { size: [40, 30], count: 3, rate: Rate { frames: 24, seconds: 1 } };
+const CLIP: Movie = Movie { size: [40, 30], count: 3, rate: Rate { frames: 24, seconds: 1 } };
 
 /// Smooth ramps of more than 256 colors over a black border; alpha on the left half.
 fn frame(number: usize) -> Vec<u8> {

@@ -4,7 +4,7 @@
 
 use std::io::Write;
 
-use super::format::{By, Clip, Frames, MovingFormat};
+use super::format::{By, Frames, Movie, MovingFormat};
 use super::opaque::over_black;
 use crate::formats::whole::Failure;
 
@@ -13,7 +13,7 @@ pub const FORMAT: MovingFormat =
     MovingFormat { name: "YUV4MPEG2", extensions: &["y4m"], made: By::Writer(write) };
 
 /// A header, then each frame over black as three planes.
-pub fn write(sink: &mut dyn Write, clip: &Clip, frames: Frames) -> Result<(), Failure> {
+pub fn write(sink: &mut dyn Write, clip: &Movie, frames: Frames) -> Result<(), Failure> {
     let ([width, height], rate) = (clip.size, clip.rate);
     let (frames_, seconds) = (rate.frames, rate.seconds);
     writeln!(

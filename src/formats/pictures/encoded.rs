@@ -21,10 +21,10 @@ pub fn to_codes([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
 }
 
 /// The curve of sRGB in 8 bits.
-static CURVE: LazyLock<Curve> = LazyLock::new(Curve::new);
+static CURVE: LazyLock<ToneCurve> = LazyLock::new(ToneCurve::new);
 
 /// sRGB codes looked up instead of computed: the curve rises, so each code is an interval of intensities.
-struct Curve {
+struct ToneCurve {
     /// The least intensity of each code; beyond the last, none.
     least: [f32; 257],
     /// The code of the least intensity in each of equal parts of 0..=1.
@@ -34,7 +34,7 @@ struct Curve {
 /// So many that a part holds the borders of two codes at the most, at the steep foot of the curve.
 const PARTS: usize = 4096;
 
-impl Curve {
+impl ToneCurve {
     fn new() -> Self {
         let code = |intensity: f32| (to_srgb(intensity) * 255.0).round() as u8;
         let mut least = [f32::INFINITY; 257];

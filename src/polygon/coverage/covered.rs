@@ -13,10 +13,10 @@ use rayon::prelude::*;
 
 use super::ball::Ball;
 use super::disc::disc_area;
-use super::flat::{Flat, Near, brick_place};
+use super::flat::{Flat, NearBrick, brick_place};
 use super::sides::turned;
 use crate::polygon::face::Face;
-use crate::volume::bricks::{Bricks, EDGE, Place, VOXELS};
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
 
 /// Cosine between the normals of faces from which on they are two sides.
 const OTHER_SIDE: f64 = -0.75;
@@ -50,7 +50,7 @@ pub enum Shares {
 }
 
 /// One face near one brick.
-type Pair = (Near, usize);
+type Pair = (NearBrick, usize);
 
 /// What one face covers of one voxel's disc.
 struct Part {
@@ -150,7 +150,7 @@ impl Filling<'_> {
         opacity.iter().any(|&alpha| alpha > 0.0).then_some(Touched { opacity, shares })
     }
 
-    fn fill_one(&self, near: Near, face: usize, opacity: &mut [f32; VOXELS]) {
+    fn fill_one(&self, near: NearBrick, face: usize, opacity: &mut [f32; VOXELS]) {
         let layer = self.flats[face].layer;
         let whole = self.ball.filled(1.0, layer);
         self.visit(near, face, |at, part, height| {
@@ -203,10 +203,10 @@ impl Filling<'_> {
     }
 
     /// Calls `covers` with the place in the brick, the part of the disc and the height of every voxel that is covered.
-    fn visit(&self, near: Near, face: usize, mut covers: impl FnMut(usize, f64, f64)) {
+    fn visit(&self, near: NearBrick, face: usize, mut covers: impl FnMut(usize, f64, f64)) {
         let (flat, reach) = (&self.flats[face], self.ball.reach());
         let [z, y, x] = near.zyx;
-        let Place { first, extent, .. } = brick_place([x, y, z], self.size);
+        let BrickPlace { first, extent, .. } = brick_place([x, y, z], self.size);
         let Some(bounds) = flat.bounds(reach, self.size) else { return };
         let range = |axis: usize| {
             let (from, to) = (first[axis], first[axis] + extent[axis]);

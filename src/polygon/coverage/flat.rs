@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::disc::clearance;
 use crate::polygon::face::Face;
-use crate::volume::bricks::{EDGE, Place};
+use crate::volume::bricks::{BrickPlace, EDGE};
 use crate::volume::grid::Grid;
 
 /// The largest disc that the ball is cut in, voxels.
@@ -29,7 +29,7 @@ pub struct Flat {
 
 /// A brick that a polygon is near.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Near {
+pub struct NearBrick {
     /// The brick, counted in bricks: z, y, x, so that they sort as bricks are stored.
     pub zyx: [usize; 3],
     /// Whether every disc in the brick lies wholly inside the polygon.
@@ -103,7 +103,7 @@ impl Flat {
     ///
     /// Columns of bricks along the axis nearest to the normal are looked at, never the whole grid.
     #[must_use]
-    pub fn bricks(&self, reach: f64, size: [usize; 3]) -> Vec<Near> {
+    pub fn bricks(&self, reach: f64, size: [usize; 3]) -> Vec<NearBrick> {
         let Some(bounds) = self.bounds(reach, size) else { return Vec::new() };
         let along = self.normal.abs().max_position();
         let (u, v) = ((along + 1) % 3, (along + 2) % 3);
@@ -146,8 +146,8 @@ impl Flat {
     }
 
     /// Whether a brick is near, by the sphere around its voxels.
-    fn near(&self, brick: [usize; 3], reach: f64, size: [usize; 3]) -> Option<Near> {
-        let Place { first, extent, .. } = brick_place(brick, size);
+    fn near(&self, brick: [usize; 3], reach: f64, size: [usize; 3]) -> Option<NearBrick> {
+        let BrickPlace { first, extent, .. } = brick_place(brick, size);
         let [first, extent] = [first, extent].map(|n| DVec3::from(n.map(|n| n as f64)));
         let half = (extent - 1.0) / 2.0;
         let middle = first + half;
@@ -157,12 +157,16 @@ impl Flat {
         let (distance, inside) = clearance(self.place(middle), &self.outlines);
         let clear = distance > half.length() + WIDEST;
         let zyx = [brick[2], brick[1], brick[0]];
-        (inside || !clear).then_some(Near { zyx, whole: inside && clear })
+        (inside || !clear).then_some(NearBrick { zyx, whole: inside && clear })
     }
 }
 
 /// Brick `brick` of a grid of `size` voxels.
-pub(super) fn brick_place(brick: [usize; 3], size: [usize; 3]) -> Place {
+pub(super) fn brick_place(brick: [usize; 3], size: [usize; 3]) -> BrickPlace {
     let first = brick.map(|b| b * EDGE);
-    Place { brick, first, extent: std::array::from_fn(|axis| EDGE.min(size[axis] - first[axis])) }
+    BrickPlace {
+        brick,
+        first,
+        extent: std::array::from_fn(|axis| EDGE.min(size[axis] - first[axis])),
+    }
 }

@@ -24,13 +24,13 @@ use mip::MipLevel;
 
 /// A texture ready for lookups: linear, associated RGBA and its coarser levels, shared by pointer.
 #[derive(Debug, Clone)]
-pub struct Texture {
+pub struct MappedTexture {
     levels: Arc<[MipLevel]>,
     wrap: Wrap,
     filter: TextureFilter,
 }
 
-impl PartialEq for Texture {
+impl PartialEq for MappedTexture {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.levels, &other.levels)
             && self.wrap == other.wrap
@@ -38,7 +38,7 @@ impl PartialEq for Texture {
     }
 }
 
-impl Texture {
+impl MappedTexture {
     /// Takes the texels of `picture` and averages them into coarser levels, down to a single texel.
     ///
     /// Colours that are not finite become 0, opacities are held within 0..=1; a picture of no pixels is transparent.
@@ -84,7 +84,7 @@ impl Texture {
     /// The texture's mean over exactly the parallelogram of `footprint`, at least a texel wide: the reference.
     ///
     /// Each texel counts by the area it shares with the parallelogram, as Feibush, Levoy and Cook weigh texels by a
-    /// square pixel. Same units and range as [`Texture::filtered`].
+    /// square pixel. Same units and range as [`MappedTexture::filtered`].
     #[must_use]
     pub fn average(&self, uv: DVec2, footprint: &Footprint) -> Vec4 {
         area::average(&self.levels, self.wrap, self.placed(uv), footprint)
@@ -104,7 +104,7 @@ pub struct TexturedBy {
     /// As stated.
     pub textured: Textured,
     /// The texture, ready for lookups.
-    pub texture: Texture,
+    pub texture: MappedTexture,
     /// World points of the texture's top left, top right and bottom left corners; never on one line.
     pub corners: [DVec3; 3],
 }

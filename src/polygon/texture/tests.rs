@@ -56,7 +56,7 @@ fn everywhere(picture: &Picture, check: impl Fn(Vec4, Wrap, String)) {
     for wrap in WRAPS {
         for footprint in footprints() {
             for uv in PLACES.map(DVec2::from) {
-                let texture = Texture::new(picture, wrap, Ellipse);
+                let texture = MappedTexture::new(picture, wrap, Ellipse);
                 let what = format!("{:?} {wrap:?} {uv} {footprint:?}", picture.size);
                 check(texture.average(uv, &footprint), wrap, format!("average {what}"));
                 for filter in FILTERS {
@@ -98,7 +98,7 @@ fn a_constant_is_preserved_to_a_millionth_and_one_vanishing_keeps_its_hue() {
 #[test]
 fn what_vanishes_counts_by_the_area_that_the_texture_shares_with_the_footprint() {
     let found = |size, uv: [f64; 2], side| {
-        let texture = Texture::new(&white(size), Wrap::Vanish, Ellipse);
+        let texture = MappedTexture::new(&white(size), Wrap::Vanish, Ellipse);
         texture.average(DVec2::from(uv), &square(side)).w
     };
     for size in [[1, 1], [64, 64], [100, 7], [300, 300]] {
@@ -116,14 +116,14 @@ fn what_vanishes_counts_by_the_area_that_the_texture_shares_with_the_footprint()
         }
     }
     let diamond = Footprint::new(DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0));
-    let texture = Texture::new(&white([64, 64]), Wrap::Vanish, Ellipse);
+    let texture = MappedTexture::new(&white([64, 64]), Wrap::Vanish, Ellipse);
     assert!((texture.average(DVec2::splat(0.5), &diamond).w - 0.5).abs() < 1e-6);
     assert!((texture.average(DVec2::new(1.0, 0.5), &diamond).w - 0.375).abs() < 1e-6);
 }
 
 #[test]
 fn a_border_that_vanishes_fades_over_a_texel() {
-    let texture = Texture::new(&white([8, 8]), Wrap::Vanish, Ellipse);
+    let texture = MappedTexture::new(&white([8, 8]), Wrap::Vanish, Ellipse);
     for filter in [Ellipse, Trilinear, Bilinear] {
         let texture = texture.with(Wrap::Vanish, filter);
         let at = |texels: f64| texture.filtered(DVec2::new(texels / 8.0, 0.5), &square(0.0)).w;
@@ -137,7 +137,7 @@ fn a_border_that_vanishes_fades_over_a_texel() {
 #[test]
 fn a_clamped_footprint_past_the_border_is_filled_with_the_outermost_texels() {
     let ramp = picture([4, 1], |x, _| [x as f32 / 3.0, 0.0, 0.0, 1.0]);
-    let texture = Texture::new(&ramp, Wrap::Clamp, Ellipse);
+    let texture = MappedTexture::new(&ramp, Wrap::Clamp, Ellipse);
     let red = |u: f64, side| texture.average(DVec2::new(u, 0.5), &square(side)).x;
     assert!((red(1.0, 1.0) - (2.0 * 1.0 + 2.0 / 3.0 + 1.0) / 4.0).abs() < 1e-6);
     assert!((red(0.5, 3.0) - 0.5).abs() < 1e-6);
@@ -148,7 +148,7 @@ fn a_clamped_footprint_past_the_border_is_filled_with_the_outermost_texels() {
 
 #[test]
 fn a_repeated_texture_is_the_same_one_texture_on() {
-    let texture = Texture::new(&speckled([64, 16]), Wrap::Repeat, Ellipse);
+    let texture = MappedTexture::new(&speckled([64, 16]), Wrap::Repeat, Ellipse);
     for filter in FILTERS {
         let texture = texture.with(Wrap::Repeat, filter);
         for uv in [[0.25, 0.125], [0.015_625, 0.75]].map(DVec2::from) {
@@ -161,7 +161,7 @@ fn a_repeated_texture_is_the_same_one_texture_on() {
 
 #[test]
 fn at_one_texel_a_pixel_a_texture_is_copied_and_between_texels_it_is_bilinear() {
-    let texture = Texture::new(&speckled([16, 16]), Wrap::Repeat, Bilinear);
+    let texture = MappedTexture::new(&speckled([16, 16]), Wrap::Repeat, Bilinear);
     let texel = square(1.0 / 16.0);
     for i in 0..64 {
         let uv = DVec2::new(f64::from(i) * 0.013, f64::from(i) * 0.029);
@@ -177,7 +177,7 @@ fn at_one_texel_a_pixel_a_texture_is_copied_and_between_texels_it_is_bilinear() 
 
 #[test]
 fn an_average_is_the_mean_of_its_quarters_and_levels_hardly_change_it() {
-    let texture = Texture::new(&speckled([256, 192]), Wrap::Repeat, Ellipse);
+    let texture = MappedTexture::new(&speckled([256, 192]), Wrap::Repeat, Ellipse);
     let (across, down) = (DVec2::new(0.11, 0.05), DVec2::new(-0.02, 0.13));
     for (scale, bound) in [(1.0, 1e-6), (8.0, 2e-3)] {
         let (p, q) = (across * scale, down * scale);

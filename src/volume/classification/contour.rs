@@ -50,7 +50,7 @@ impl Line {
 
 /// A contour without thickness: a surface at a value, found between voxels.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surface {
+pub struct SharpContour {
     /// f_v.
     pub value: f32,
     /// α_v of the surface itself, in 0..=1, however thick a slab it is met in.
@@ -61,8 +61,8 @@ pub struct Surface {
 
 impl Contours {
     /// Those without thickness.
-    pub fn surfaces(&self) -> Vec<Surface> {
-        let surface = |line: &Line| Surface {
+    pub fn surfaces(&self) -> Vec<SharpContour> {
+        let surface = |line: &Line| SharpContour {
             value: line.value as f32,
             opacity: line.opacity as f32,
             color: line.color.as_vec3(),

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::curve::Curve;
 use super::numbers::{opacity_in_range, weighted_mean};
-use crate::components::{ClassifyMaterial, Color};
+use crate::components::{Color, MixtureMaterial};
 
 /// Opacity and associated colour of a voxel are sums over the materials, weighted by their probabilities.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,8 +19,8 @@ struct Part {
 
 impl Mixture {
     /// A mixture of materials; those without a colour of their own take `color`.
-    pub fn new(stated: &[ClassifyMaterial], color: DVec3) -> Self {
-        let part = |material: &ClassifyMaterial| Part {
+    pub fn new(stated: &[MixtureMaterial], color: DVec3) -> Self {
+        let part = |material: &MixtureMaterial| Part {
             probability: Curve::new(
                 material.probability.iter().map(|[value, p]| (*value, opacity_in_range(*p))),
             ),
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_mixture_sums_what_is_probable_and_never_exceeds_certainty() {
-        let material = |probability: &[[f32; 2]], opacity, color| ClassifyMaterial {
+        let material = |probability: &[[f32; 2]], opacity, color| MixtureMaterial {
             probability: probability.to_vec(),
             opacity,
             color,

@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 use crate::components::{Classify, Material};
 use crate::volume::ranges::Range;
 use contour::Contours;
-pub use contour::Surface;
+pub use contour::SharpContour;
 use mixture::Mixture;
 use numbers::fraction;
 use regions::Regions;
@@ -102,7 +102,7 @@ impl Classifier {
 
     /// The contours that have no thickness: no opacity is of them, they are met where values cross theirs.
     #[must_use]
-    pub fn surfaces(&self) -> Vec<Surface> {
+    pub fn surfaces(&self) -> Vec<SharpContour> {
         match &self.how {
             How::Contours(contours) => contours.surfaces(),
             _ => Vec::new(),

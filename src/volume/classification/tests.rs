@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::components::{ClassifyMaterial, Color, Contour, Form, Tissue, TransferPoint};
+use crate::components::{Color, Contour, Form, MixtureMaterial, Tissue, TransferPoint};
 
 const RED: Option<Color> = Some(Color(Vec3::X));
 
@@ -12,7 +12,7 @@ fn four_ways(value: f32, other: f32, opacity: f32, r: f32) -> [Classify; 4] {
     let tissue = |value, opacity| Tissue { value, opacity, color: None };
     let point = |value, opacity| TransferPoint { value, opacity, color: RED };
     let curve = vec![[value, 0.0], [other, 1.0]];
-    let material = ClassifyMaterial { probability: curve, opacity, color: RED };
+    let material = MixtureMaterial { probability: curve, opacity, color: RED };
     [
         Classify {
             iso: vec![contour(value, Form::Around, None), contour(other, Form::Above, RED)],

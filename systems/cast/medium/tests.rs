@@ -104,7 +104,7 @@ type Taken = Vec<(i64, [u64; 4])>;
 /// Every slab of every wanted ray that is not empty: its number, and the bits of what is in it. From a number on where the
 /// rays are asked to seek anew, as where a polygon interrupts them.
 fn taken(
-    medium: &Medium<'_, kernel::Gel<'_, [f32; 4]>>,
+    medium: &Medium<'_, kernel::GelSlices<'_, [f32; 4]>>,
     packet: &Packet,
     anew: i64,
 ) -> [Taken; LANES] {
@@ -166,7 +166,7 @@ proptest! {
         let camera = Camera::new(&case.view, &Extent::of(case.grid.corners()).unwrap());
         let walk = Walk::new(&case.grid, &camera, case.distance).unwrap().unwrap();
         let medium = |pyramid, level| Medium {
-            walk, camera: &camera, source: kernel::Gel { texels: gel.slices(), ambient: None, pyramid }, pyramid, ratio: 1.0, distance: case.distance, cue: None,
+            walk, camera: &camera, source: kernel::GelSlices { texels: gel.slices(), ambient: None, pyramid }, pyramid, ratio: 1.0, distance: case.distance, cue: None,
             dust: None, level,
         };
         let mut tile = Tile::default();
