@@ -15,7 +15,7 @@ const MOST_BYTES: u64 = 64 << 20;
 pub type Row = (u32, Color, f32);
 
 /// Reads a table of colors; the error names the line that is no row of either kind.
-pub fn read_label_table(path: &Path) -> Result<Vec<Row>, Error> {
+pub(crate) fn read_label_table(path: &Path) -> Result<Vec<Row>, Error> {
     let unread = |error: std::io::Error| Error::file(path, format!("cannot be read ({error})"));
     let bytes = std::fs::metadata(path).map_err(unread)?.len();
     if bytes > MOST_BYTES {

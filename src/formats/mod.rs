@@ -43,7 +43,7 @@ use stream::Stream;
 use survey::Promise;
 
 /// A format of volume files: a row of [`FORMATS`].
-pub struct Format {
+pub(crate) struct Format {
     /// What people call it.
     pub name: &'static str,
     /// How its file names end, in lower case and without the first dot.
@@ -63,7 +63,7 @@ pub struct Format {
 const HEAD: usize = 352;
 
 /// The formats of volumes; one more is a file and a row.
-pub static FORMATS: &[Format] = &[
+pub(crate) static FORMATS: &[Format] = &[
     Format {
         name: "NRRD",
         extensions: &["nrrd", "nhdr"],
@@ -129,7 +129,7 @@ pub static FORMATS: &[Format] = &[
     },
 ];
 
-/// Reads a volume of any format in [`FORMATS`]: by what it starts with, else by how its name ends; of a folder, the
+/// Reads a volume of any format in `FORMATS`: by what it starts with, else by how its name ends; of a folder, the
 /// series of slices in it.
 ///
 /// A name that ends as a headerless file is believed, whatever its voxels look like. `stated` is what the scene says of
@@ -145,7 +145,7 @@ pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
     read_stream(stream, path, stated).map_err(wrong)
 }
 
-/// Surveys a volume of any format in [`FORMATS`]: fails as [`read_volume`] does where the header cannot be read.
+/// Surveys a volume of any format in `FORMATS`: fails as [`read_volume`] does where the header cannot be read.
 pub fn survey(path: &Path, stated: &Stated) -> Result<Survey, Error> {
     let wrong = |problem| Error::format(path, problem);
     stated.check().map_err(wrong)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// What a header says of the voxels that follow it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Survey {
-    /// The name of its format, as in [`super::FORMATS`].
+    /// The name of its format, as in `FORMATS`.
     pub format: &'static str,
     /// The file, and those that hold its voxels where it does not, or not alone.
     pub files: Vec<PathBuf>,

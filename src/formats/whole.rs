@@ -76,7 +76,7 @@ impl Whole {
 
 /// Writes the file at `path` by way of a program that takes a file's name: `write` is given that of a temporary file
 /// beside `path`, which is put in place when it has returned `Ok`, and removed where it has not.
-pub fn write_by_name(
+pub(crate) fn write_by_name(
     path: &Path,
     write: impl FnOnce(&Path) -> Result<(), Failure>,
 ) -> Result<(), Error> {

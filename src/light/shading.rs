@@ -9,7 +9,7 @@ use crate::view::observer;
 
 /// How something answers light: the coefficients of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reflectance {
+pub(crate) struct Reflectance {
     /// k_a in 0..=1.
     pub ambient: f32,
     /// k_d in 0..=1.
@@ -38,7 +38,7 @@ impl From<&Surface> for Reflectance {
 
 /// A light as it falls on a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lamp {
+pub(crate) struct Lamp {
     /// Unit vector towards the light, world.
     pub toward: Vec3,
     /// H: the unit vector half-way between the light and the observer.
@@ -49,7 +49,7 @@ pub struct Lamp {
 
 /// The lights of a scene, in its order: those that cast no shadow, and those that do.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Lamps {
+pub(crate) struct Lamps {
     /// Lights with β = 1 everywhere.
     pub plain: Vec<Lamp>,
     /// Lights with a strength of their own at every voxel.
@@ -138,14 +138,14 @@ pub fn toward(light: &Light, observer: DVec3) -> DVec3 {
 /// The lights as they fall on something of this reflectance. Where the observer makes no difference he is no part of it:
 /// what is lit by them need not be shaded again for another view.
 #[must_use]
-pub fn lamps(world: &World, how: &Reflectance) -> Lamps {
+pub(crate) fn lamps(world: &World, how: &Reflectance) -> Lamps {
     let depends = depends_on_view(world, how);
     Lamps::of(world, if depends { observer::direction(world) } else { observer::ANYWHERE })
 }
 
 /// Whether light on something of this reflectance depends on where the observer stands: then a turn of the view shades again.
 #[must_use]
-pub fn depends_on_view(world: &World, how: &Reflectance) -> bool {
+pub(crate) fn depends_on_view(world: &World, how: &Reflectance) -> bool {
     let mut lights = world.query::<&Light>();
     let mut lights = lights.iter().peekable();
     (how.specular > 0.0 && lights.peek().is_some())

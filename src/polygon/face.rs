@@ -35,7 +35,7 @@ impl PartialEq for Faces {
 
 /// A color for each of the faces of one entity, in place of their surface's.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FaceColors(pub Shared<Color>);
+pub(crate) struct FaceColors(pub Shared<Color>);
 
 impl FaceColors {
     /// The color of face number `at`, if it has one.

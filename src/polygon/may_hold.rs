@@ -18,7 +18,7 @@ use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes};
 
 /// For each brick of a volume, whether any of it may be seen: none is stored that this denies.
 #[derive(Debug, Clone)]
-pub struct MayHold {
+pub(crate) struct MayHold {
     size: [usize; 3],
     counts: [usize; 3],
     held: Vec<bool>,
@@ -54,7 +54,7 @@ impl MayHold {
 
     /// And those that the polygons touch which are scan-converted into the volume.
     #[must_use]
-    pub fn with_polygons(mut self, world: &World, volume: &SceneVolume) -> Self {
+    pub(crate) fn with_polygons(mut self, world: &World, volume: &SceneVolume) -> Self {
         let volumes = volumes(world);
         let mut query = world.query::<&Faces>().with::<(&Voxelize, &Surface)>();
         for faces in &mut query {

@@ -5,7 +5,7 @@ use hecs::{Entity, World};
 use super::fault::Fault;
 
 /// A component that a world may be given; equality tells whether it was changed since.
-pub trait Filling: hecs::Component + Clone + PartialEq {}
+pub(crate) trait Filling: hecs::Component + Clone + PartialEq {}
 
 impl<T: hecs::Component + Clone + PartialEq> Filling for T {}
 
@@ -17,7 +17,7 @@ struct Filled<I, T> {
 
 /// What became of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Became {
+pub(crate) enum Became {
     /// The caller states it, or it was made of the very same before.
     Kept,
     /// It was made just now.
@@ -44,7 +44,7 @@ pub fn fill<I: Filling, T: Filling>(
 }
 
 /// [`fill`] with what is made of another component of the entity, which is copied only where something is made.
-pub fn fill_from<I: Filling, T: Filling>(
+pub(crate) fn fill_from<I: Filling, T: Filling>(
     world: &mut World,
     entity: Entity,
     make: impl FnOnce(&I) -> Result<T, Fault>,
@@ -66,14 +66,14 @@ fn stays<I: Filling, T: Filling>(world: &World, entity: Entity, of: &I) -> bool 
 }
 
 /// Whether a component is what was filled in, unchanged.
-pub fn is_filled<I: Filling, T: Filling>(world: &World, entity: Entity) -> bool {
+pub(crate) fn is_filled<I: Filling, T: Filling>(world: &World, entity: Entity) -> bool {
     let filled = world.get::<&Filled<I, T>>(entity);
     let present = world.get::<&T>(entity);
     filled.is_ok_and(|filled| present.is_ok_and(|present| *present == filled.made))
 }
 
 /// Takes what was filled in off an entity that no longer states what it was made of.
-pub fn withdraw<I: Filling, T: Filling>(world: &mut World, entity: Entity) {
+pub(crate) fn withdraw<I: Filling, T: Filling>(world: &mut World, entity: Entity) {
     if is_filled::<I, T>(world, entity) {
         let _ = world.remove::<(T, Filled<I, T>)>(entity);
     }

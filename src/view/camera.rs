@@ -90,7 +90,7 @@ impl Camera {
     /// How large things in the plane of that depth are drawn, against those in the focal plane: above 0 for what is seen.
     #[must_use]
     #[inline]
-    pub fn magnification(&self, depth: f64) -> f64 {
+    pub(crate) fn magnification(&self, depth: f64) -> f64 {
         self.eye.map_or(1.0, |eye| eye / (eye + depth))
     }
 

@@ -31,7 +31,7 @@ pub fn thicken(opacity: f64, ratio: f64) -> f64 {
 /// `thickened / opacity`, and its limit `ratio` as the opacity goes to 0.
 #[must_use]
 #[inline]
-pub fn recolor(opacity: f64, thickened: f64, ratio: f64) -> f64 {
+pub(crate) fn recolor(opacity: f64, thickened: f64, ratio: f64) -> f64 {
     if opacity > 0.0 { thickened / opacity } else { ratio }
 }
 

@@ -8,7 +8,7 @@ use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 
 /// Where an observer is taken to stand who makes no difference: in front, as at azimuth 0 and elevation 0.
-pub const ANYWHERE: DVec3 = DVec3::NEG_Y;
+pub(crate) const ANYWHERE: DVec3 = DVec3::NEG_Y;
 
 /// The first view in the order of the scene; `None` without one.
 #[must_use]
@@ -17,7 +17,7 @@ pub fn first_view(world: &World) -> Option<Entity> {
     views.iter().min_by_key(|(_, _, order)| order.copied()).map(|(entity, ..)| entity)
 }
 
-/// The unit vector from the scene towards the observer; [`ANYWHERE`] without a view.
+/// The unit vector from the scene towards the observer; `ANYWHERE` without a view.
 #[must_use]
 pub fn direction(world: &World) -> DVec3 {
     let view = first_view(world).and_then(|entity| world.get::<&View>(entity).ok());
@@ -35,7 +35,7 @@ pub fn sampling(world: &World) -> Sampling {
 
 /// Whether the view states a depth cue: ambient light, which is not cued, is then kept apart.
 #[must_use]
-pub fn is_cued(world: &World) -> bool {
+pub(crate) fn is_cued(world: &World) -> bool {
     first_view(world).is_some_and(|entity| world.get::<&DepthCue>(entity).is_ok())
 }
 

@@ -9,12 +9,12 @@ use crate::shared::Shared;
 
 /// What lies over a view's picture, of its size; made where a scene states furniture that is drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Overlay(pub Picture);
+pub(crate) struct Overlay(pub Picture);
 
 impl Product for Overlay {}
 
 /// Something to draw on, clear at first.
-pub struct Canvas {
+pub(crate) struct Canvas {
     size: [usize; 2],
     pixels: Vec<[f32; 4]>,
 }

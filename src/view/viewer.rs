@@ -45,7 +45,7 @@ impl Viewer {
 
     /// Whether it is time for a picture, and the last was taken.
     #[must_use]
-    pub fn is_due(&self) -> bool {
+    pub(crate) fn is_due(&self) -> bool {
         self.pictures.is_empty() && self.pace.is_due()
     }
 

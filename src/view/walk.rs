@@ -7,9 +7,9 @@ use super::samples::POSITIONS;
 use crate::volume::grid::Grid;
 
 /// Bits of a voxel index behind the point.
-pub const FRACTION_BITS: u32 = 40;
+pub(crate) const FRACTION_BITS: u32 = 40;
 /// Bits of a place in a cell that are looked at: exact in an f32.
-pub const PLACE_BITS: u32 = 24;
+pub(crate) const PLACE_BITS: u32 = 24;
 const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
 /// Rays along the side of a tile.
 pub const SIDE: usize = 4;
@@ -158,7 +158,7 @@ impl Walk {
 
     /// The rays of a tile of positions `step` apart, the first of which is `first`, counted from the middle of pixel (0, 0).
     #[inline]
-    pub fn enter(&self, first: [i64; 2], step: i64, tile: &mut Tile) {
+    pub(crate) fn enter(&self, first: [i64; 2], step: i64, tile: &mut Tile) {
         self.places.tile(first, step, &mut tile.at);
         self.steps.tile(first, step, &mut tile.step);
         tile.middle = self.middle;
@@ -195,7 +195,7 @@ impl Walk {
 
     /// Whether rays are parallel.
     #[must_use]
-    pub fn is_parallel(&self) -> bool {
+    pub(crate) fn is_parallel(&self) -> bool {
         self.is_parallel
     }
 }
@@ -212,7 +212,7 @@ impl Tile {
     /// The fixed-point voxel index of a ray at a sample.
     #[must_use]
     #[inline]
-    pub fn at_sample(&self, lane: usize, k: i64) -> [i64; 3] {
+    pub(crate) fn at_sample(&self, lane: usize, k: i64) -> [i64; 3] {
         std::array::from_fn(|axis| self.place(axis, lane, k))
     }
 

@@ -81,7 +81,7 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
     }
 
     /// [`Bricks::make`], of which the bricks that `may_hold` denies are neither made nor stored.
-    pub fn make_where(
+    pub(crate) fn make_where(
         size: [usize; 3],
         may_hold: impl Fn(BrickPlace) -> bool + Send + Sync,
         make: impl Fn(BrickPlace, &mut [T; VOXELS]) -> bool + Send + Sync,

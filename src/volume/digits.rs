@@ -13,7 +13,7 @@ const CHUNK: usize = 1 << 16;
 impl Scalars {
     /// A sentence without a subject where the values lose digits that tell them apart; `None` where they do not.
     #[must_use]
-    pub fn lost_digits(&self) -> Option<String> {
+    pub(crate) fn lost_digits(&self) -> Option<String> {
         let [low, high] = match self {
             Self::U32(values) => range(values, |v| f64::from(*v)),
             Self::I32(values) => range(values, |v| f64::from(*v)),

@@ -4,7 +4,7 @@ use crate::components::Filter;
 
 /// What the voxels before, at, behind and two behind the first of a cell count at a place in the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Taps {
+pub(crate) struct Taps {
     /// For the value.
     pub weights: [f32; 4],
     /// For its slope, per voxel.
@@ -65,7 +65,7 @@ impl Taps {
 /// How far reconstructed values may leave the range of the voxels that they are made of: so many times half of its width
 /// from its middle, over all three axes; 1 where they never do.
 #[must_use]
-pub fn overshoot(filter: Filter) -> f32 {
+pub(crate) fn overshoot(filter: Filter) -> f32 {
     match filter {
         Filter::CatmullRom => 1.25 * 1.25 * 1.25,
         _ => 1.0,
@@ -74,7 +74,7 @@ pub fn overshoot(filter: Filter) -> f32 {
 
 /// How much steeper than a central difference a slope may be, of voxels that are equally far apart.
 #[must_use]
-pub fn steepness(filter: Filter) -> f32 {
+pub(crate) fn steepness(filter: Filter) -> f32 {
     match filter {
         Filter::Linear => 1.0,
         Filter::Cubic | Filter::Interpolating => 1.5,

@@ -18,11 +18,11 @@ pub use texel::{FAINT, Texel};
 /// Cells along one edge of a brick.
 pub const CELLS: usize = 8;
 /// Texels along one edge of a brick.
-pub const ROW: usize = CELLS + 1;
+pub(crate) const ROW: usize = CELLS + 1;
 /// Texels of a brick.
 pub const TEXELS: usize = ROW * ROW * ROW;
 /// The table's entry for a brick that is not stored.
-pub const EMPTY: u32 = u32::MAX;
+pub(crate) const EMPTY: u32 = u32::MAX;
 
 /// The gel in one number type. Shared by pointer, equality is identity.
 #[derive(Debug)]
@@ -90,7 +90,7 @@ impl<T: Texel> Texels<T> {
         ((z * self.counts()[1] + y) * self.counts()[0] + x) as u32
     }
 
-    /// For each brick of the grid, x fastest: its number among the stored ones, or [`EMPTY`].
+    /// For each brick of the grid, x fastest: its number among the stored ones, or `EMPTY`.
     #[must_use]
     pub fn table(&self) -> &[u32] {
         &self.0.table
@@ -112,7 +112,7 @@ impl<T: Texel> Texels<T> {
     /// Which cells of stored brick `brick` are interesting: bit `8 y + x` of word `z`, set if one of its eight texels
     /// has an opacity above zero. Level 0 of the paper's pyramid.
     #[must_use]
-    pub fn interesting_cells(&self, brick: u32) -> [u64; CELLS] {
+    pub(crate) fn interesting_cells(&self, brick: u32) -> [u64; CELLS] {
         let texels = &self.0.bricks[brick as usize];
         let opaque = |z: usize, y: usize| {
             let row = &texels[(z * ROW + y) * ROW..][..ROW];
@@ -156,21 +156,21 @@ impl<'a, T: Texel> TexelSlices<'a, T> {
         self.counts
     }
 
-    /// The number of a brick among the stored ones, by its place in the table; [`EMPTY`] outside the table too.
+    /// The number of a brick among the stored ones, by its place in the table; `EMPTY` outside the table too.
     #[must_use]
     #[inline]
     pub fn stored(self, entry: u32) -> u32 {
         self.table.get(entry as usize).copied().unwrap_or(EMPTY)
     }
 
-    /// The texels of a stored brick, x fastest; zeros for [`EMPTY`].
+    /// The texels of a stored brick, x fastest; zeros for `EMPTY`.
     #[must_use]
     #[inline]
     pub fn texels(self, brick: u32) -> &'a [T; TEXELS] {
         &self.bricks[(brick as usize).min(self.bricks.len() - 1)]
     }
 
-    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for [`EMPTY`]: `cell` in 0..8, `at` in
+    /// Tri-linear interpolation in a cell of stored brick `brick`, or of zeros for `EMPTY`: `cell` in 0..8, `at` in
     /// 0..1 within the cell.
     ///
     /// The result is associated RGBA per opacity unit; exactly zero where all eight texels are.
@@ -278,7 +278,7 @@ impl GelBricks {
 
 /// The most bytes of `stored` bricks of gel, and of the one of zeros.
 #[must_use]
-pub fn bytes_of(kind: TexelKind, stored: u64) -> u64 {
+pub(crate) fn bytes_of(kind: TexelKind, stored: u64) -> u64 {
     let texel = match kind {
         TexelKind::Auto | TexelKind::F32 => 16,
         TexelKind::U16 => 8,

@@ -42,7 +42,7 @@ impl Looks {
 
 /// A color for a label: hues a golden angle apart, none of them like its neighbours'.
 #[must_use]
-pub fn distinct(label: u32) -> Color {
+pub(crate) fn distinct(label: u32) -> Color {
     let turn = (f64::from(label) * 0.618_033_988_749_895).fract() as f32 * 6.0;
     let light = if label.is_multiple_of(2) { 0.92 } else { 0.75 };
     let channel = |shift: f32| {

@@ -59,7 +59,7 @@ impl Paint for [f32; 4] {
 
 /// A painted volume on its grid, after clipping.
 #[derive(Debug)]
-pub struct Painting<'a> {
+pub(crate) struct Painting<'a> {
     painted: &'a Painted,
     grid: Grid,
     cut: Option<Cut>,
@@ -89,7 +89,7 @@ impl<'a> Painting<'a> {
     /// 16-bit texels for integers some of which are not faint, which colours of integers are never too bright for; else 32-bit
     /// ones.
     #[must_use]
-    pub fn suited(&self) -> TexelKind {
+    pub(crate) fn suited(&self) -> TexelKind {
         fn is_faint<T: Paint>(values: &[T]) -> bool {
             values.iter().all(|voxel| voxel.opacity() <= FAINT)
         }

@@ -56,7 +56,7 @@ impl Pyramid {
 
     /// The pyramid of interesting `cells`, of the bricks that `table` numbers on a grid of `counts` bricks.
     #[must_use]
-    pub fn of_cells(counts: [usize; 3], table: Vec<u32>, cells: Vec<[u64; CELLS]>) -> Self {
+    pub(crate) fn of_cells(counts: [usize; 3], table: Vec<u32>, cells: Vec<[u64; CELLS]>) -> Self {
         let full = FullBlocks::of(counts, &table, &cells);
         let near = Near::of(counts, &table, &cells);
         let blocks = full.counts;
@@ -93,18 +93,18 @@ impl<'a> PyramidSlices<'a> {
     /// Which bits tell of interesting cells within `reach` cells of another, for [`is_near`](Self::is_near); `None` where none
     /// reach so far.
     #[must_use]
-    pub fn reaching(reach: f64) -> Option<usize> {
+    pub(crate) fn reaching(reach: f64) -> Option<usize> {
         Near::reaching(reach)
     }
 
     /// Whether an interesting cell may be within reach of a cell; `None` if there is none near its brick at all.
     #[must_use]
     #[inline]
-    pub fn is_near(self, reaching: usize, cell: [i64; 3]) -> Option<bool> {
+    pub(crate) fn is_near(self, reaching: usize, cell: [i64; 3]) -> Option<bool> {
         self.near.holds(reaching, cell)
     }
 
-    /// Whether a cell may be seen, of a pyramid that was made [of cells](Pyramid::of_cells).
+    /// Whether a cell may be seen, of a pyramid that was made of cells.
     #[must_use]
     #[inline]
     pub fn shows(self, cell: [usize; 3]) -> bool {

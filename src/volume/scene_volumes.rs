@@ -74,7 +74,7 @@ pub fn volumes(world: &World) -> Vec<SceneVolume> {
 
 /// Those whose voxels hold this, in the order of the scene.
 #[must_use]
-pub fn with_content(world: &World, content: Content) -> Vec<SceneVolume> {
+pub(crate) fn with_content(world: &World, content: Content) -> Vec<SceneVolume> {
     volumes(world).into_iter().filter(|volume| volume.content == content).collect()
 }
 
@@ -89,7 +89,7 @@ pub fn scanned(world: &World) -> Vec<SceneVolume> {
 /// Those whose opacities at voxels something asks for: all that are classified there, and all others of scalars where a
 /// light casts shadows.
 #[must_use]
-pub fn with_opacities(world: &World) -> Vec<SceneVolume> {
+pub(crate) fn with_opacities(world: &World) -> Vec<SceneVolume> {
     let shadows = world.query::<&CastsShadow>().iter().next().is_some();
     let asked = |v: &SceneVolume| match v.content {
         Content::Classified => true,

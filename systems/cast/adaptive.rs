@@ -19,7 +19,7 @@ use crate::schedule::Watch;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray};
 
 /// The sample array while it is refined.
-pub struct Refinement<'a, C> {
+pub(crate) struct Refinement<'a, C> {
     sampling: &'a Sampling,
     outlines: Option<&'a Outlines>,
     caster: &'a C,
@@ -53,7 +53,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
     }
 
     /// Casts, splits and casts again, from the coarsest regions to the finest; shows what is known meanwhile to who looks on.
-    pub fn refine(
+    pub(crate) fn refine(
         mut self,
         watch: &Watch,
         mut preview: Option<&mut Preview<'_>>,

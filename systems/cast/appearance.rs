@@ -8,7 +8,7 @@ use crate::light::shading::{Lamps, Reflectance};
 
 /// How a polygon of one orientation and surface looks under the lights of a scene: constant over it, but for the cue,
 /// textures and shadows.
-pub struct Appearance {
+pub(crate) struct Appearance {
     /// α_P.
     pub opacity: f64,
     /// c_P k_a.

@@ -8,7 +8,7 @@ use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 const LEAST: usize = 64;
 
 /// The part of a sample array that one row of packets of the coarser levels, or some of the finer, lies in.
-pub struct Band<'b> {
+pub(crate) struct Band<'b> {
     /// Which of the bands.
     pub number: usize,
     /// Its first position down.

@@ -11,7 +11,7 @@ pub const SIDE: usize = PIXELS * POSITIONS;
 
 /// How a sample array is cut into beams of 16 × 16 positions.
 #[derive(Debug, Clone, Copy)]
-pub struct Beams {
+pub(crate) struct Beams {
     /// The positions of the array.
     pub layout: Layout,
     /// Beams across and down.
@@ -38,7 +38,7 @@ impl Beams {
     }
 
     /// The number of the beam around a position, counted from the middle of pixel (0, 0).
-    pub fn around_position(&self, position: [i64; 2]) -> usize {
+    pub(crate) fn around_position(&self, position: [i64; 2]) -> usize {
         let [x, y] = position.map(|n| (n + self.layout.margin as i64) as usize / SIDE);
         y * self.counts[0] + x
     }

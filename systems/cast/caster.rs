@@ -12,7 +12,7 @@ use crate::view::samples::Counts;
 use crate::view::walk::Tile;
 
 /// Casts rays, a packet at a time.
-pub struct BeamCaster<'a, M> {
+pub(crate) struct BeamCaster<'a, M> {
     /// What rays may meet of polygons.
     pub polygons: Polygons,
     /// And what they show of volumes that are projected.
@@ -26,7 +26,7 @@ pub struct BeamCaster<'a, M> {
 }
 
 /// What a thread needs for a packet, kept from one to the next.
-pub struct Scratch<E> {
+pub(crate) struct Scratch<E> {
     entered: E,
     /// Where the packet is in the volumes that are projected.
     tiles: Vec<Tile>,

@@ -12,10 +12,10 @@ use crate::volume::field::{Field, Sampled, Spot};
 const HALVINGS: usize = 12;
 
 /// What a ray crosses within a slab: the part of the slab before it, its colour and its opacity.
-pub type Crossings = Vec<(f64, Vec3, f32)>;
+pub(crate) type Crossings = Vec<(f64, Vec3, f32)>;
 
 /// The stretch of a ray that a sample stands for, from its beginning to its end: fixed-point voxel indices.
-pub struct Stretch {
+pub(crate) struct Stretch {
     from: [i64; 3],
     to: [i64; 3],
 }

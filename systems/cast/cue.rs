@@ -2,7 +2,7 @@
 
 /// How reflected light fades with depth: divided by `k1 + k2 (t − near)`, t the depth along the ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cue {
+pub(crate) struct Cue {
     /// k_1.
     pub k1: f64,
     /// k_2, per world unit.

@@ -42,7 +42,7 @@ pub struct Inputs {
 
 /// Faces that stay polygons, and how they look.
 #[derive(PartialEq)]
-pub struct TracedPolygons {
+pub(crate) struct TracedPolygons {
     pub faces: Faces,
     pub surface: Surface,
     pub colors: Option<FaceColors>,
@@ -53,7 +53,7 @@ pub struct TracedPolygons {
 
 /// A volume and where it is.
 #[derive(PartialEq)]
-pub struct Placed {
+pub(crate) struct Placed {
     pub grid: Grid,
     pub content: Sampled,
     pub pyramid: Option<Pyramid>,
@@ -69,7 +69,7 @@ pub enum Sampled {
 
 /// Scalars that are classified and shaded at samples, and all that decides how they look.
 #[derive(PartialEq)]
-pub struct StatedValues {
+pub(crate) struct StatedValues {
     /// What is interpolated: the volume's own, or a spline's coefficients.
     pub scalars: Scalars,
     pub filter: Filter,

@@ -18,7 +18,7 @@ const BRICK_BITS: u32 = CELLS.trailing_zeros();
 
 /// What rays sample.
 #[derive(Clone, Copy)]
-pub struct GelSlices<'a, T> {
+pub(crate) struct GelSlices<'a, T> {
     /// The gel.
     pub texels: TexelSlices<'a, T>,
     /// The ambient part of its colour, where it is apart.

@@ -3,7 +3,7 @@
 pub use crate::view::walk::{LANES, SIDE};
 
 /// A set of a tile's rays: bit n is ray n, at `(n mod 4, n / 4)`.
-pub type Lanes = u16;
+pub(crate) type Lanes = u16;
 
 /// The rays of a set, in their order.
 #[inline]
@@ -19,7 +19,7 @@ pub fn each(mut lanes: Lanes) -> impl Iterator<Item = usize> {
 
 /// The rays that are cast together.
 #[derive(Debug, Clone, Copy)]
-pub struct Packet {
+pub(crate) struct Packet {
     /// The position of ray 0, counted from the middle of pixel (0, 0).
     pub first: [i64; 2],
     /// Positions from each ray to the next: what each stands for.

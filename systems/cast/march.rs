@@ -13,7 +13,7 @@ use crate::view::samples::Counts;
 
 /// A polygon that a ray meets, shaded.
 #[derive(Debug, Clone, Copy)]
-pub struct Shaded {
+pub(crate) struct Shaded {
     /// Associated colour: textured, shadowed, cued.
     pub color: DVec3,
     /// α_P, textured.
@@ -26,7 +26,7 @@ pub struct Shaded {
 
 /// A polygon on a ray: where, and which.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hit {
+pub(crate) struct Hit {
     /// Depth along the ray, world units.
     pub depth: f64,
     /// Its number among the faces seen, in the order of the scene.
@@ -37,7 +37,7 @@ pub struct Hit {
 
 /// What all rays of a view have in common.
 #[derive(Debug, Clone, Copy)]
-pub struct Slabs {
+pub(crate) struct Slabs {
     /// Δ, world units.
     pub distance: f64,
     /// A ray stops when no more than this comes through of what is behind.
@@ -60,7 +60,7 @@ impl Slabs {
 
 /// The state of C and C_A of one ray (paper §2).
 #[derive(Debug, Clone, Copy)]
-pub struct Gathering {
+pub(crate) struct Gathering {
     /// C: volume and polygons.
     pub full: Gathered,
     /// C_A: polygons attenuated by the volume.

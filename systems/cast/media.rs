@@ -6,7 +6,7 @@ use super::lanes::{Lanes, Packet};
 use crate::view::samples::Counts;
 
 /// Gel as a packet of rays meets it, sample by sample. All rays of a view have their samples at the same depths.
-pub trait Media: Sync {
+pub(crate) trait Media: Sync {
     /// Where the rays of a packet are in it; taken from packet to packet, so that nothing is allocated for one.
     type Entered: Default + Send;
 

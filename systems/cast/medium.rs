@@ -52,7 +52,7 @@ impl<T: Texel> Source for kernel::GelSlices<'_, T> {
 }
 
 /// One volume as the rays of one view meet it.
-pub struct Medium<'a, S> {
+pub(crate) struct Medium<'a, S> {
     /// How samples walk through it.
     pub walk: Walk,
     /// The view's frame.
@@ -75,7 +75,7 @@ pub struct Medium<'a, S> {
 
 /// Where the rays of a packet are in a volume.
 #[derive(Debug, Clone, Default)]
-pub struct Entered {
+pub(crate) struct Entered {
     /// Where each of them is.
     pub tile: Tile,
     /// What each sees of the gel at the sample that was met last: associated RGBA per opacity unit.

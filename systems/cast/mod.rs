@@ -72,7 +72,7 @@ use texture::FaceTexture;
 use values::Values;
 
 /// Casts the rays of every view.
-pub struct Cast;
+pub(crate) struct Cast;
 
 impl System for Cast {
     type Product = Samples;

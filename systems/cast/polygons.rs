@@ -95,7 +95,7 @@ impl Polygons {
     }
 
     /// Whether nothing is seen through a hit.
-    pub fn is_opaque(&self, hit: &Hit) -> bool {
+    pub(crate) fn is_opaque(&self, hit: &Hit) -> bool {
         let appearance = self.faces[hit.face as usize].appearance();
         appearance.opacity >= 1.0 && appearance.texture.is_none()
     }

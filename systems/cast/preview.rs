@@ -8,10 +8,10 @@ use crate::view::samples::{POSITIONS, SampleArray};
 use crate::view::viewer::Viewer;
 
 /// Positions between the rays of the first picture.
-pub const FIRST: u32 = 32;
+pub(crate) const FIRST: u32 = 32;
 
 /// What is shown of a view, and to whom.
-pub struct Preview<'a> {
+pub(crate) struct Preview<'a> {
     viewer: &'a Viewer,
     filter: PixelFilter,
     background: Option<Color>,
@@ -27,7 +27,7 @@ impl<'a> Preview<'a> {
     }
 
     /// Whether it is time for a picture.
-    pub fn is_due(&self) -> bool {
+    pub(crate) fn is_due(&self) -> bool {
         self.viewer.is_due()
     }
 

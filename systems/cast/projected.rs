@@ -17,7 +17,7 @@ const OUTSIDE: f64 = 1e-6;
 const EDGE_ON: f64 = 1e-9;
 
 /// A polygon of the scene on one view.
-pub struct ProjectedFace {
+pub(crate) struct ProjectedFace {
     /// The outlines in window coordinates, pixels; holes as the rest: a position inside an odd number of them is in.
     outlines: Vec<Vec<DVec2>>,
     low: DVec2,
@@ -61,7 +61,7 @@ impl ProjectedFace {
     }
 
     /// How it looks.
-    pub fn appearance(&self) -> &Appearance {
+    pub(crate) fn appearance(&self) -> &Appearance {
         &self.appearance
     }
 

@@ -18,7 +18,7 @@ use glam::DVec3;
 
 /// A volume that is projected, as it is stated.
 #[derive(PartialEq)]
-pub struct StatedProjection {
+pub(crate) struct StatedProjection {
     /// Which value of a ray is shown.
     pub shows: Projection,
     /// Where the voxels are.
@@ -75,7 +75,7 @@ impl<'a> Projections<'a> {
     }
 
     /// Lets a packet enter the volumes.
-    pub fn enter(&self, packet: &Packet, entered: &mut Vec<Tile>) {
+    pub(crate) fn enter(&self, packet: &Packet, entered: &mut Vec<Tile>) {
         entered.resize_with(self.each.len(), Tile::default);
         for (projected, tile) in self.each.iter().zip(entered) {
             projected.walk.enter(packet.first, packet.step as i64, tile);

@@ -19,7 +19,7 @@ const FLATTEST: f64 = 0.2;
 
 /// The way from a point on a face of unit normal `normal` to the point whose strength it gets, world units; one for each
 /// light of `lamps` that casts a shadow.
-pub fn shadow_offsets(
+pub(crate) fn shadow_offsets(
     normal: DVec3,
     lamps: &Lamps,
     strengths: &[Option<LightStrength>],

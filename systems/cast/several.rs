@@ -12,7 +12,7 @@ use crate::view::composite::overlap;
 use crate::view::samples::Counts;
 
 /// A volume in whatever numbers its gel is kept, or without.
-pub enum AnyMedium<'a> {
+pub(crate) enum AnyMedium<'a> {
     /// 32-bit floats.
     F32(Medium<'a, GelSlices<'a, [f32; 4]>>),
     /// 16-bit fixed point.
@@ -33,7 +33,7 @@ pub struct Several<'a> {
 
 /// Where the rays of a packet are in several volumes.
 #[derive(Default)]
-pub struct EnteredAll {
+pub(crate) struct EnteredAll {
     each: Vec<Within>,
     /// The slabs that overlap, of the ray that was asked for last.
     parts: Vec<(DVec3, f64)>,

@@ -15,7 +15,7 @@ use crate::view::camera::Camera;
 
 /// What a shaft is made of: the light and what shapes its beam.
 #[derive(Clone, PartialEq)]
-pub struct StatedShaft {
+pub(crate) struct StatedShaft {
     /// The dust.
     pub shaft: Shaft,
     /// The light that it answers.

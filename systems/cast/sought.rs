@@ -6,7 +6,7 @@ use crate::volume::bricks::EDGE;
 use crate::volume::grid::Scalar;
 
 /// A ray of a tile in a volume, from the first sample inside on.
-pub struct Sought<'a> {
+pub(crate) struct Sought<'a> {
     /// The tile.
     pub tile: &'a Tile,
     /// The number of the ray in it.

@@ -5,7 +5,7 @@ use crate::view::samples::Counts;
 
 /// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct RayColors {
+pub(crate) struct RayColors {
     /// C.
     pub full: [f32; 4],
     /// C_A.
@@ -15,7 +15,7 @@ pub struct RayColors {
 }
 
 /// Casts rays.
-pub trait Caster: Sync {
+pub(crate) trait Caster: Sync {
     /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
     type Scratch: Default;
     /// Casts the wanted rays of a packet and puts what they saw into `rays`.
@@ -29,7 +29,7 @@ pub trait Caster: Sync {
 }
 
 /// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
-pub struct Outlines {
+pub(crate) struct Outlines {
     /// Side of the flagged squares, in positions.
     pub side: usize,
     /// Flagged squares across.

@@ -11,7 +11,7 @@ use crate::view::ray::Ray;
 use crate::view::samples::POSITIONS;
 
 /// A texture on a face, as a view sees it.
-pub struct FaceTexture {
+pub(crate) struct FaceTexture {
     texture: MappedTexture,
     mapping: Mapping,
     camera: Camera,

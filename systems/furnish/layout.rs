@@ -7,7 +7,7 @@ use crate::view::lettering::{Line, set};
 use crate::view::overlay::Canvas;
 
 /// A picture being furnished.
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// What is drawn on.
     pub canvas: Canvas,
     size: [f32; 2],

@@ -14,7 +14,7 @@ use crate::view::overlay::Overlay;
 use layout::Sheet;
 
 /// Makes the [`Overlay`] of every view of a scene that states furniture.
-pub struct Furnish;
+pub(crate) struct Furnish;
 
 /// What is drawn, in the order of the scene.
 #[derive(Debug, Clone, PartialEq)]

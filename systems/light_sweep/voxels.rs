@@ -109,7 +109,7 @@ impl<'a> Voxels<'a> {
     }
 
     /// Puts the strengths into the bricks of what is relit.
-    pub fn gather(self, shear: &Shear) -> Bricks<u16> {
+    pub(crate) fn gather(self, shear: &Shear) -> Bricks<u16> {
         self.opacity.map(|bricks, opacities, made| {
             let [column, row, along] = shear.axes.map(|axis| bricks.brick[axis]);
             let first = along * EDGE;

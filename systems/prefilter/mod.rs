@@ -12,7 +12,7 @@ use crate::volume::grid::Scalars;
 use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
 
 /// Makes the [`Coefficients`] of every volume whose values are sampled, where its filter needs them.
-pub struct Prefilter;
+pub(crate) struct Prefilter;
 
 impl System for Prefilter {
     type Product = Coefficients;

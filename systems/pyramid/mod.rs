@@ -19,7 +19,7 @@ use crate::volume::seen::Seen;
 use crate::with_texels;
 
 /// Makes the [`Pyramid`] of every volume that is seen, where the view's sampling asks for it.
-pub struct StackPyramid;
+pub(crate) struct StackPyramid;
 
 /// What a pyramid is of.
 #[derive(PartialEq)]

@@ -10,7 +10,7 @@ use crate::volume::gel::{FAINT, GelBricks};
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
-pub struct LitLayer<'a> {
+pub(crate) struct LitLayer<'a> {
     /// α.
     pub opacity: &'a Bricks<f32>,
     /// What no shadow weakens.

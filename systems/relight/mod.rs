@@ -23,7 +23,7 @@ use crate::volume::scene_volumes::{Content, SceneVolume, gels, with_content};
 use lit_layer::LitLayer;
 
 /// Makes the [`Gel`] of every volume.
-pub struct Relight;
+pub(crate) struct Relight;
 
 #[derive(PartialEq)]
 struct Inputs {

@@ -23,7 +23,7 @@ use crate::with_scalars;
 const CUT_DEEP: f64 = 1.5;
 
 /// Makes the [`LitColors`] of every volume that is classified.
-pub struct Shade;
+pub(crate) struct Shade;
 
 #[derive(PartialEq)]
 struct Inputs {

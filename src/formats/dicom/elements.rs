@@ -4,7 +4,7 @@ use super::super::number::Order;
 use super::super::stream::Stream;
 
 /// Whether a file starts as DICOM.
-pub fn recognizes(head: &[u8]) -> bool {
+pub(crate) fn recognizes(head: &[u8]) -> bool {
     head.get(128..132) == Some(b"DICM")
 }
 
@@ -102,7 +102,7 @@ impl Elements {
     }
 
     /// The fragments of packed pixels one after the other, without the table of offsets before them.
-    pub fn fragments(&mut self) -> Result<Vec<u8>, String> {
+    pub(crate) fn fragments(&mut self) -> Result<Vec<u8>, String> {
         let mut bytes = Vec::new();
         let mut first = true;
         loop {

@@ -14,7 +14,7 @@ use super::stream::Stream;
 use crate::error::Error;
 pub use triangles::Triangles;
 
-/// A format of meshes: a row of [`MESH_FORMATS`].
+/// A format of meshes: a row of `MESH_FORMATS`.
 pub struct MeshFormat {
     /// What people call it.
     pub name: &'static str,
@@ -25,7 +25,7 @@ pub struct MeshFormat {
 }
 
 /// The formats of meshes; one more is a file and a row.
-pub static MESH_FORMATS: &[MeshFormat] = &[
+pub(crate) static MESH_FORMATS: &[MeshFormat] = &[
     MeshFormat { name: "STL", extension: "stl", read: stl::read },
     MeshFormat { name: "PLY", extension: "ply", read: ply::read },
     MeshFormat { name: "OBJ", extension: "obj", read: obj::read },
@@ -42,7 +42,7 @@ pub fn mesh_format(path: &Path) -> Option<&'static MeshFormat> {
 ///
 /// Every index is one of a vertex, and every vertex is finite. Fails where the file is missing, of no known format, damaged
 /// or without a face; memory is taken in proportion to what the file holds.
-pub fn read_mesh(path: &Path) -> Result<Triangles, Error> {
+pub(crate) fn read_mesh(path: &Path) -> Result<Triangles, Error> {
     let known = || {
         let row = |format: &MeshFormat| format!("{} (.{})", format.name, format.extension);
         MESH_FORMATS.iter().map(row).collect::<Vec<_>>().join(", ")

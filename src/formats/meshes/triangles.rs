@@ -16,19 +16,19 @@ pub struct Triangles {
 }
 
 /// Adds a polygon as a fan of triangles around its first vertex.
-pub fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
+pub(crate) fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
     let Some((&first, rest)) = polygon.split_first() else { return };
     faces.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
 }
 
 /// The sentence about polygons of more than three corners, if there were any.
-pub fn fans(polygons: usize) -> Option<String> {
+pub(crate) fn fans(polygons: usize) -> Option<String> {
     (polygons > 0).then(|| {
         format!("{polygons} of its polygons have more than 3 corners and are split into triangles from their first")
     })
 }
 
 /// Room for so many values more, which the file has bytes for.
-pub fn reserve<T>(values: &mut Vec<T>, count: usize) -> Result<(), String> {
+pub(crate) fn reserve<T>(values: &mut Vec<T>, count: usize) -> Result<(), String> {
     room(values, count)
 }

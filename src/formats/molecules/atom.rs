@@ -93,7 +93,7 @@ impl Element {
 
     /// The covalent radius, Å (Cordero and others 2008).
     #[must_use]
-    pub fn covalent(self) -> f64 {
+    pub(crate) fn covalent(self) -> f64 {
         match self {
             Self::Hydrogen => 0.31,
             Self::Carbon => 0.76,

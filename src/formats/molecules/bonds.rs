@@ -14,7 +14,7 @@ const CELL: f64 = 2.7;
 const MOST: usize = 8;
 
 /// The bonds of some atoms: those `stated`, and those that their distances tell.
-pub fn bonds(atoms: &[Atom], stated: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+pub(crate) fn bonds(atoms: &[Atom], stated: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
     let count = atoms.len();
     let within = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < count;
     let mut found: BTreeSet<[u32; 2]> = stated.into_iter().filter(within).collect();

@@ -19,7 +19,7 @@ pub use atom::{Atom, Element, Structure};
 ///
 /// Of several models the first is read, and of alternate places of an atom the first. Fails where the file is missing,
 /// is neither, or has no atom.
-pub fn read_molecule(path: &Path) -> Result<Structure, Error> {
+pub(crate) fn read_molecule(path: &Path) -> Result<Structure, Error> {
     let read = || {
         let bytes = Stream::open(path)?.rest()?;
         molecule(&String::from_utf8_lossy(&bytes))

@@ -61,7 +61,7 @@ fn atom(line: &str) -> Option<Atom> {
 }
 
 /// Whether a residue is water.
-pub fn is_water(residue: &str) -> bool {
+pub(crate) fn is_water(residue: &str) -> bool {
     matches!(residue, "HOH" | "WAT" | "DOD" | "H2O")
 }
 

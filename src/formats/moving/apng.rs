@@ -8,7 +8,7 @@ use super::format::{By, Frames, Movie, MovingFormat};
 use crate::formats::whole::Failure;
 
 /// Written only: read as a PNG, it is its first frame.
-pub const FORMAT: MovingFormat =
+pub(crate) const FORMAT: MovingFormat =
     MovingFormat { name: "APNG", extensions: &["png", "apng"], made: By::Writer(write) };
 
 /// Each frame whole, in place of the one before.

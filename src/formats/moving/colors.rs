@@ -17,7 +17,7 @@ pub fn dot(a: Point, b: Point) -> f32 {
 }
 
 /// `a − b`.
-pub fn minus(a: Point, b: Point) -> Point {
+pub(crate) fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 

@@ -21,7 +21,7 @@ struct Blend {
 }
 
 /// The places in the palette that show the pixels of a frame `width` pixels across.
-pub fn dithered(pixels: &[[u8; 3]], width: usize, palette: &[Point]) -> Vec<usize> {
+pub(crate) fn dithered(pixels: &[[u8; 3]], width: usize, palette: &[Point]) -> Vec<usize> {
     let mut known: HashMap<[u8; 3], Blend> = HashMap::new();
     let place = |(at, pixel): (usize, &[u8; 3])| {
         let mixture = known.entry(*pixel).or_insert_with(|| mixture(palette, point(*pixel)));

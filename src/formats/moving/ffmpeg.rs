@@ -17,7 +17,7 @@ pub const MP4: MovingFormat = MovingFormat {
 };
 
 /// VP9: what browsers show.
-pub const WEBM: MovingFormat = MovingFormat {
+pub(crate) const WEBM: MovingFormat = MovingFormat {
     name: "WebM",
     extensions: &["webm"],
     made: By::Ffmpeg(&["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-f", "webm"]),

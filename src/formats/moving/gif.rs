@@ -12,7 +12,7 @@ use super::palette::{palette, points};
 use crate::formats::whole::Failure;
 
 /// Written only.
-pub const FORMAT: MovingFormat =
+pub(crate) const FORMAT: MovingFormat =
     MovingFormat { name: "GIF", extensions: &["gif"], made: By::Writer(write) };
 
 fn write(sink: &mut dyn Write, clip: &Movie, frames: Frames) -> Result<(), Failure> {

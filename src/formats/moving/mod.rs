@@ -31,7 +31,7 @@ pub fn moving_format_of(path: &Path) -> Option<&'static MovingFormat> {
 }
 
 /// The format of a clip's name; the error lists the names that there are.
-pub fn moving_format(path: &Path) -> Result<&'static MovingFormat, Error> {
+pub(crate) fn moving_format(path: &Path) -> Result<&'static MovingFormat, Error> {
     moving_format_of(path).ok_or_else(|| {
         let known = MOVING_FORMATS.iter().flat_map(|format| format.extensions);
         let known: Vec<_> = known.map(|extension| format!(".{extension}")).collect();

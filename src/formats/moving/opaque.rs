@@ -3,7 +3,7 @@
 use crate::components::color::{to_linear, to_srgb};
 
 /// The sRGB codes of a frame of straight RGBA codes over black.
-pub fn over_black(frame: &[u8]) -> Vec<[u8; 3]> {
+pub(crate) fn over_black(frame: &[u8]) -> Vec<[u8; 3]> {
     let linear: Vec<f32> = (0..=255_u8).map(|code| to_linear(f32::from(code) / 255.0)).collect();
     let seen = |&[r, g, b, alpha]: &[u8; 4]| match alpha {
         255 => [r, g, b],

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::colors::{Point, dot, minus, nearest, point};
 
 /// Colors that a palette has.
-pub const MOST: usize = 256;
+pub(crate) const MOST: usize = 256;
 
 /// Rounds of moving colors to the middle of what is nearest to them.
 const ROUNDS: usize = 3;
@@ -22,7 +22,7 @@ struct Weighed {
 }
 
 /// The palette of a frame, at most [`MOST`] colors; all of the frame's if it has no more.
-pub fn palette(pixels: &[[u8; 3]]) -> Vec<[u8; 3]> {
+pub(crate) fn palette(pixels: &[[u8; 3]]) -> Vec<[u8; 3]> {
     let mut counted: BTreeMap<[u8; 3], u32> = BTreeMap::new();
     for pixel in pixels {
         *counted.entry(*pixel).or_default() += 1;

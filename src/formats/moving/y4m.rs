@@ -9,7 +9,7 @@ use super::opaque::over_black;
 use crate::formats::whole::Failure;
 
 /// Written only.
-pub const FORMAT: MovingFormat =
+pub(crate) const FORMAT: MovingFormat =
     MovingFormat { name: "YUV4MPEG2", extensions: &["y4m"], made: By::Writer(write) };
 
 /// A header, then each frame over black as three planes.

@@ -11,7 +11,7 @@ const LONGEST: usize = 400;
 const FIRST_CHUNK: usize = 1 << 16;
 
 /// The words of a stream, one after another.
-pub struct Words<'a> {
+pub(crate) struct Words<'a> {
     stream: &'a mut Stream,
     word: Vec<u8>,
 }

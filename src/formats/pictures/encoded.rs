@@ -12,7 +12,7 @@ use crate::view::picture::Picture;
 /// Colours are divided by alpha and clamped to 0..=1, as is alpha. A pixel of alpha 0 (or NaN) has colour 0, a channel
 /// that is NaN is 0.
 #[must_use]
-pub fn to_codes([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
+pub(crate) fn to_codes([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
     let visible = alpha > 0.0;
     let alpha = alpha.min(1.0);
     let code = |channel: f32| (channel * 255.0).round() as u8; // `as` takes NaN to 0 and saturates
@@ -64,7 +64,7 @@ impl ToneCurve {
     }
 }
 
-/// All pixels of a picture as [`to_codes`] has them, row by row from the top, four bytes a pixel.
+/// All pixels of a picture as `to_codes` has them, row by row from the top, four bytes a pixel.
 #[must_use]
 pub fn to_bytes(picture: &Picture) -> Vec<u8> {
     let mut bytes = vec![0; picture.pixels.len() * 4];

@@ -18,7 +18,7 @@ use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub const FORMAT: PictureFormat =
+pub(crate) const FORMAT: PictureFormat =
     PictureFormat { name: "EXR", extensions: &["exr"], read: Some(read), write: Some(write) };
 
 /// Writes scan lines of float RGBA, compressed without loss (ZIP) by all threads; a note is a text attribute `gelray.` and

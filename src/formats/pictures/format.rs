@@ -26,13 +26,13 @@ pub struct PictureFormat {
 }
 
 /// The longest side of a picture that is read, in pixels.
-pub const LONGEST_SIDE: u64 = 65_536;
+pub(crate) const LONGEST_SIDE: u64 = 65_536;
 
 /// The most pixels of a picture that is read: 16384², 4 GiB in memory.
-pub const MOST_PIXELS: u64 = 1 << 28;
+pub(crate) const MOST_PIXELS: u64 = 1 << 28;
 
 /// The size of a picture that a file's header states, if it is one that may be read.
-pub fn checked_size(width: u64, height: u64) -> Result<[usize; 2], String> {
+pub(crate) fn checked_size(width: u64, height: u64) -> Result<[usize; 2], String> {
     let side = 1..=LONGEST_SIDE;
     if side.contains(&width) && side.contains(&height) && width * height <= MOST_PIXELS {
         return Ok([width as usize, height as usize]);

@@ -10,7 +10,7 @@ use super::{MOST_PIXELS, PictureFormat, checked_size, whole, wrong};
 use crate::view::picture::Picture;
 
 /// Read, not written.
-pub const FORMAT: PictureFormat =
+pub(crate) const FORMAT: PictureFormat =
     PictureFormat { name: "JPEG", extensions: &["jpg", "jpeg"], read: Some(read), write: None };
 
 /// Reads grey and colour, baseline and progressive, opaque.

@@ -5,7 +5,7 @@ use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub const FORMAT: PictureFormat =
+pub(crate) const FORMAT: PictureFormat =
     PictureFormat { name: "NPY", extensions: &["npy"], read: Some(read), write: Some(write) };
 
 const MAGIC: &[u8] = b"\x93NUMPY";

@@ -13,7 +13,7 @@ use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub const FORMAT: PictureFormat =
+pub(crate) const FORMAT: PictureFormat =
     PictureFormat { name: "PNG", extensions: &["png"], read: Some(read), write: Some(write) };
 
 /// Writes 8-bit RGBA, marked as sRGB, with each note as an `iTXt` chunk before the pixels, which all threads deflate.

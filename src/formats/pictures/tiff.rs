@@ -15,7 +15,7 @@ use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub const FORMAT: PictureFormat = PictureFormat {
+pub(crate) const FORMAT: PictureFormat = PictureFormat {
     name: "TIFF",
     extensions: &["tiff", "tif"],
     read: Some(read),

@@ -33,7 +33,7 @@ fn find(bytes: &[u8], word: &[u8]) -> Option<usize> {
 
 impl Tag<'_> {
     /// What stands between the quotes after `key=`.
-    pub fn attribute(&self, key: &str) -> Option<String> {
+    pub(crate) fn attribute(&self, key: &str) -> Option<String> {
         let text = String::from_utf8_lossy(self.inside);
         let mut rest: &str = &text;
         loop {

@@ -56,7 +56,7 @@ impl Falloff {
     /// `k_1 + k_2 d`, above 0.
     #[must_use]
     #[inline]
-    pub fn divisor(&self, distance: f64) -> f64 {
+    pub(crate) fn divisor(&self, distance: f64) -> f64 {
         // A distance that is no number is the least.
         let held =
             if distance > self.range[0] { distance.min(self.range[1]) } else { self.range[0] };

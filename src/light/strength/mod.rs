@@ -70,6 +70,6 @@ impl LightStrength {
 /// A strength in 16 bits: 65535 stands for `full`, which is above 0; more than that, and less than 0, are clamped.
 #[must_use]
 #[inline]
-pub fn quantize(strength: f64, full: f64) -> u16 {
+pub(crate) fn quantize(strength: f64, full: f64) -> u16 {
     (strength / full * 65535.0 + 0.5) as u16
 }

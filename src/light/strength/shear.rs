@@ -139,7 +139,7 @@ impl Shear {
 
     /// The column through a world point and its place along it, in slices; continuous, in the volume or not.
     #[must_use]
-    pub fn locate(&self, world: DVec3) -> ([f64; 2], f64) {
+    pub(crate) fn locate(&self, world: DVec3) -> ([f64; 2], f64) {
         let index = self.world_to_index.transform_point3(world);
         let along = index[self.axes[2]];
         let slice = if self.reversed { (self.size[2] - 1) as f64 - along } else { along };

@@ -75,7 +75,7 @@ impl Slide {
     }
 
     /// β_0 on the ray of light through `world`: the average over `footprint` (world units along the texture's width and
-    /// height, 0 for a point). In 0..=[`Slide::brightest`].
+    /// height, 0 for a point). In 0..=`Slide::brightest`.
     #[must_use]
     pub fn at(&self, world: DVec3, footprint: [f64; 2]) -> f32 {
         let from = world - self.center;
@@ -107,7 +107,7 @@ impl Slide {
 
     /// The brightest texel: no strength is above it.
     #[must_use]
-    pub fn brightest(&self) -> f32 {
+    pub(crate) fn brightest(&self) -> f32 {
         self.levels[0].light.iter().copied().fold(0.0, f32::max)
     }
 

@@ -20,7 +20,7 @@ pub fn disc_area(center: DVec2, radius: f64, outlines: &[Vec<DVec2>]) -> f64 {
 
 /// The distance from a point to the nearest edge of a polygon, and whether the point is inside it (holes are outside).
 #[must_use]
-pub fn clearance(point: DVec2, outlines: &[Vec<DVec2>]) -> (f64, bool) {
+pub(crate) fn clearance(point: DVec2, outlines: &[Vec<DVec2>]) -> (f64, bool) {
     let (squared, inside) =
         outlines.iter().fold((f64::INFINITY, false), |(nearest, odd), outline| {
             let (squared, inside) = clearance_of_outline(point, outline);

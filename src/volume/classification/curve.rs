@@ -4,7 +4,7 @@ use std::ops::{Add, Mul};
 
 /// Points in rising order; two at one place are a step, and the later counts from there on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve<V>(Vec<(f64, V)>);
+pub(crate) struct Curve<V>(Vec<(f64, V)>);
 
 impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Curve<V> {
     /// A curve through points `(place, value)`. They are sorted; a place that is not finite is left out.

@@ -111,7 +111,7 @@ impl Classifier {
 
     /// Whether the opacity depends on the gradient at all.
     #[must_use]
-    pub fn is_of_gradient(&self) -> bool {
+    pub(crate) fn is_of_gradient(&self) -> bool {
         match &self.how {
             How::Contours(_) | How::Regions(_) => true,
             How::Transfer(transfer) => transfer.is_of_gradient(),

@@ -8,7 +8,7 @@ use crate::components::{Color, TransferPoint};
 
 /// What every other program calls a transfer function.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Transfer {
+pub(crate) struct Transfer {
     opacity: Curve<f64>,
     color: Curve<DVec3>,
     /// A factor of the gradient magnitude.
@@ -47,7 +47,7 @@ impl Transfer {
     }
 
     /// Whether the opacity depends on the gradient.
-    pub fn is_of_gradient(&self) -> bool {
+    pub(crate) fn is_of_gradient(&self) -> bool {
         self.factor.is_some()
     }
 

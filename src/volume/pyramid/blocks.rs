@@ -12,7 +12,7 @@ const PER_BRICK: usize = CELLS / BLOCK;
 const FARTHEST: u8 = 31;
 
 /// Blocks with an interesting cell, a bit each: rows of words along x.
-pub struct FullBlocks {
+pub(crate) struct FullBlocks {
     /// Blocks on each axis.
     pub counts: [usize; 3],
     /// Words of a row.

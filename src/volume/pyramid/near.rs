@@ -12,7 +12,7 @@ const FIRST: u64 = 0x0101_0101_0101_0101;
 /// For cells of bricks that hold interesting cells or touch a brick which does: whether an interesting one is at most so
 /// many cells away along every axis.
 #[derive(Debug)]
-pub struct Near {
+pub(crate) struct Near {
     counts: [usize; 3],
     /// For each brick: its place in the arrays, or [`EMPTY`].
     table: Vec<u32>,
@@ -21,7 +21,7 @@ pub struct Near {
 }
 
 /// The reaches that bits are kept for, cells.
-pub const REACHES: [usize; 2] = [2, 4];
+pub(crate) const REACHES: [usize; 2] = [2, 4];
 
 impl Near {
     /// What is near the interesting `cells` of the stored bricks of `table`, on a grid of `counts` bricks.
@@ -47,7 +47,7 @@ impl Near {
     }
 
     /// Which bits tell of interesting cells within `reach` cells; `None` where none reach so far.
-    pub fn reaching(reach: f64) -> Option<usize> {
+    pub(crate) fn reaching(reach: f64) -> Option<usize> {
         REACHES.iter().position(|&within| reach <= within as f64)
     }
 
