@@ -157,6 +157,27 @@ fn a_texture_is_a_picture_on_a_named_entity() {
 }
 
 #[test]
+fn furniture_that_a_caller_spawns_is_drawn_and_leaves_the_rays_alone() {
+    let (mut world, _) = world();
+    let plain = rendered(&mut world);
+    let bar = world.spawn((ScaleBar::default(),));
+    let barred = rendered(&mut world);
+    let color = |rendered: &Rendered, n: usize| rendered.samples.color(n % 160, n / 160);
+    assert!((0..160 * 160).all(|n| color(&plain, n) == color(&barred, n)));
+    assert_ne!(bits(&plain.picture), bits(&barred.picture), "the bar lies over the picture");
+    world.despawn(bar).unwrap();
+    assert_eq!(
+        bits(&plain.picture),
+        bits(&rendered(&mut world).picture),
+        "and goes with its entity"
+    );
+    world.spawn((BoundingBox::default(),));
+    let boxed = rendered(&mut world).picture;
+    let seen = |picture: &Picture| picture.pixels.iter().filter(|pixel| pixel[3] > 0.0).count();
+    assert!(seen(&boxed) > seen(&plain.picture), "its edges stand beside the ball");
+}
+
+#[test]
 fn work_is_stopped_from_outside_and_goes_on_to_the_same_picture() {
     let (mut stopped, _) = world();
     let renderer = Renderer::new().unwrap();
