@@ -8,7 +8,7 @@ use crate::error::Error;
 
 /// Multiplies with the fractional digits of the golden ratio and folds the high half of the product onto the low one.
 fn mixed(state: u64, word: u64) -> u64 {
-    let product = u128::from(state ^ word) * 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835;
+    let product = u128::from(state ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
     (product as u64) ^ ((product >> 64) as u64).rotate_left(23)
 }
 
