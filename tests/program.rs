@@ -6,6 +6,8 @@ mod animate;
 mod bad_input;
 #[path = "program/contact.rs"]
 mod contact;
+#[path = "program/fuzzed.rs"]
+mod fuzzed;
 #[path = "program/inquiries.rs"]
 mod inquiries;
 #[path = "program/interrupted.rs"]
@@ -18,8 +20,12 @@ mod misuse;
 mod planned;
 #[path = "program/progressive.rs"]
 mod progressive;
+#[path = "../benches/fuzz/random.rs"]
+mod random;
 #[path = "program/render.rs"]
 mod render;
+#[path = "../benches/fuzz/scenes.rs"]
+mod scenes;
 #[path = "program/sentences.rs"]
 mod sentences;
 #[path = "program/spared.rs"]

@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench fuzz -- --seconds 3600` (or `--runs N`) makes run after run, each from its own number: `--from N
 //! --runs 1` makes run N again. Readers and the loader of scenes are tried in this process, one run in 64 through the real
-//! program. What counts as a fault: a panic, an exit code that is not stated, an error that is not one line, a file left
+//! program; half of the scenes at least are sound, and rendered. What counts as a fault: a panic, an exit code that is not stated, an error that is not one line, a file left
 //! behind, more memory than a small input explains, and a run of more than ten seconds. `--kills 400` kills as many runs of
 //! the program at moments of their own and looks at what they leave, and whether the next run clears it away.
 
@@ -36,6 +36,8 @@ static RUN: AtomicU64 = AtomicU64::new(0);
 struct Found {
     faults: Vec<(u64, String)>,
     refused: u64,
+    /// Scenes that were tried, and those of them that were taken.
+    scenes: [u64; 2],
 }
 
 fn main() {
@@ -68,7 +70,13 @@ fn one(run: u64, folder: &TempDir, found: &mut Found) {
         _ => scenes::load(&mut random, folder.path()),
     }));
     match tried {
-        Ok(Ok(taken)) => found.refused += u64::from(!taken),
+        Ok(Ok(taken)) => {
+            found.refused += u64::from(!taken);
+            if run.is_multiple_of(64) || run % 2 == 1 {
+                found.scenes[0] += 1;
+                found.scenes[1] += u64::from(taken);
+            }
+        }
         Ok(Err(fault)) => found.faults.push((run, fault)),
         Err(panic) => {
             let said = panic.downcast_ref::<String>().cloned();
@@ -96,11 +104,17 @@ fn watch() {
 fn report(runs: u64, took: Duration, found: &Found) {
     let seconds = took.as_secs_f64();
     println!("{runs} runs in {seconds:.1} s; {} were refused by a sentence", found.refused);
+    let [scenes, taken] = found.scenes;
+    println!("{scenes} of scenes and `--set`, of which {taken} were taken");
     for (run, fault) in found.faults.iter().take(20) {
         println!("run {run}: {fault}");
     }
     let peak = peak();
     println!("{} faults, 0 hangs, {} MiB at the most", found.faults.len(), peak >> 20);
+    if scenes > 1000 && 2 * taken < scenes {
+        println!("that is too few: what is refused early tries nothing else");
+        std::process::exit(1);
+    }
     if peak > MOST_BYTES {
         println!("that is more memory than the inputs explain");
         std::process::exit(1);

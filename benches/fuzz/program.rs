@@ -34,14 +34,13 @@ pub fn run(random: &mut Random, folder: &Path) -> Result<bool, String> {
     let told = |error: std::io::Error| error.to_string();
     std::fs::create_dir(&folder).map_err(told)?;
     std::fs::write(folder.join("v.raw"), [7; 64]).map_err(told)?;
-    std::fs::write(folder.join("s.toml"), scenes::text(random)).map_err(told)?;
+    let (text, changes) = scenes::stated(random);
+    std::fs::write(folder.join("s.toml"), text).map_err(told)?;
     let mut words = vec![(*random.of(&["render", "render", "plan", "info", "compare"])).to_owned()];
     words.push("s.toml".to_owned());
     words.push("-o".to_owned());
     words.push((*random.of(&OUTPUTS)).to_owned());
-    for _ in 0..random.below(3) {
-        words.push(format!("--set={}", scenes::change(random)));
-    }
+    words.extend(changes.into_iter().map(|change| format!("--set={change}")));
     words.extend((0..random.below(4)).map(|_| (*random.of(&WORDS)).to_owned()));
     let output = Command::new(env!("CARGO_BIN_EXE_gelray"))
         .args(&words)

@@ -66,7 +66,7 @@ fn open(source: &Source, motion: &Motion, flags: &Flags) -> Result<Film, Failure
     let loads = Loads {
         data: flags.data_folders(),
         exact: flags.exact,
-        most_bytes: memory::allowed(flags, 0).map(Allowed::more),
+        most_bytes: memory::allowed(flags.max_memory, 0).map(Allowed::more),
         source: source.clone(),
     };
     let film = Film::open(loads, render::changes(source, flags), motion.frames, motion.axis())

@@ -10,7 +10,7 @@ use super::flags::Flags;
 use super::{memory, stats};
 
 /// What the program takes before anything is read, with what is free between arrays.
-const PROGRAM: u64 = 12 << 20;
+const PROGRAM: u64 = 15 << 20;
 
 /// What a thread takes beside: its stack, as far as it is used, and its share of what is free.
 const THREAD: u64 = 512 << 10;
@@ -21,7 +21,7 @@ const ENCODED: u64 = 16;
 /// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
 pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
     let taken = stats::voxels(world);
-    let Some(allowed) = memory::allowed(flags, taken) else { return Ok(()) };
+    let Some(allowed) = memory::allowed(flags.max_memory, taken) else { return Ok(()) };
     allowed.check(most_bytes(schedule, world) - taken, taken)
 }
 

@@ -46,7 +46,7 @@ pub fn run(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
     })?;
     let mut results = Results::default();
     if let Some(map) = &flags.output {
-        results.picture(map, &found.worst, &[])?;
+        results.pictures(&[map], &found.worst, &[])?;
     }
     if let Some(path) = &flags.stats {
         let Difference { linear, srgb, worst_at, non_finite, .. } = found;

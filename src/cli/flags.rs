@@ -10,6 +10,7 @@ use gelray::components::Preset;
 use super::bytes;
 use super::failure::Failure;
 use super::limit::Limit;
+use super::memory;
 use super::raw_header::RawHeader;
 
 /// All flags of all verbs.
@@ -135,12 +136,19 @@ impl Flags {
     /// Makes the threads that compute: here, where a failure is a sentence, and not where they are first used.
     pub fn set_threads(&self) -> Result<(), Failure> {
         let stated = self.threads.map_or(0, usize::from);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(stated);
+        let available = || std::thread::available_parallelism().map_or(1, usize::from);
+        let number = if stated == 0 { available() } else { stated };
+        let mut pool = rayon::ThreadPoolBuilder::new().num_threads(stated);
+        if let Some(bytes) = memory::stack(number)? {
+            pool = pool.stack_size(bytes);
+        }
         pool.thread_name(|number| format!("thread {number}")).build_global().map_err(|error| {
             Failure::Said(format!(
                 "the threads that compute cannot be made ({error}); ask for fewer with --threads, or raise the limits of the system (`ulimit -u`, `ulimit -v`)"
             ))
-        })
+        })?;
+        memory::settle();
+        Ok(())
     }
 }
 

@@ -4,7 +4,6 @@ use gelray::Error;
 
 use super::bytes::human;
 use super::failure::Failure;
-use super::flags::Flags;
 
 /// A limit of memory, and who set it.
 #[derive(Debug, Clone, Copy)]
@@ -15,11 +14,47 @@ pub struct Allowed {
     by_system: bool,
 }
 
-/// What may be taken beside `taken` bytes that were read already; `None` where nobody sets a limit.
-pub fn allowed(flags: &Flags, taken: u64) -> Option<Allowed> {
-    let stated =
-        flags.max_memory.map(|most| Allowed { more: most.saturating_sub(taken), by_system: false });
-    let system = address_space_left().map(|more| Allowed { more, by_system: true });
+/// What a process takes before it does anything, where the system limits what it may map: to read a command line and a scene,
+/// and for what is free between arrays.
+const RESERVE: u64 = 16 << 20;
+
+/// The stack of a thread, where the system limits what may be mapped.
+const STACK: u64 = 1 << 20;
+
+/// What a thread may map beside its stack, for arrays too small to be planned.
+const THREAD: u64 = 1 << 20;
+
+/// The stack that each of `threads` threads is to have, where the system limits what the process may map; an error where
+/// they and the program have no room.
+///
+/// An allocation that fails ends the program without a word, so nothing is begun that may need more than there is.
+pub fn stack(threads: usize) -> Result<Option<usize>, Failure> {
+    let Some(left) = address_space_left() else { return Ok(None) };
+    let needed = RESERVE.saturating_add((STACK + THREAD).saturating_mul(threads as u64));
+    if needed <= left {
+        return Ok(Some(STACK as usize));
+    }
+    let [needed, left] = [needed, left].map(human);
+    Err(Failure::Said(format!(
+        "the program and its {threads} threads need {needed} of memory and the system lets this process have {left} more; raise its limit (`ulimit -v`), or ask for fewer threads with --threads"
+    )))
+}
+
+/// Has each thread take the room for its small arrays now, where the system limits what may be mapped: what is left after
+/// is left for all.
+pub fn settle() {
+    if address_space_left().is_some() {
+        rayon::broadcast(|_| drop(std::hint::black_box(vec![0_u8; 64])));
+    }
+}
+
+/// What may be taken beside `taken` bytes that were read already, of the `most` that flags allow; `None` where nobody sets a
+/// limit.
+pub fn allowed(most: Option<u64>, taken: u64) -> Option<Allowed> {
+    let stated = most.map(|most| Allowed { more: most.saturating_sub(taken), by_system: false });
+    let reserve = RESERVE + THREAD * rayon::current_num_threads() as u64;
+    let system = address_space_left()
+        .map(|left| Allowed { more: left.saturating_sub(reserve), by_system: true });
     stated.into_iter().chain(system).min_by_key(|allowed| allowed.more)
 }
 

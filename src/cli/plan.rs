@@ -11,7 +11,7 @@ use gelray::volume::grid::smallest_spacing;
 use gelray::volume::scene_volumes::visible;
 use hecs::World;
 
-use super::bound::{self, check_memory, jobs, most_bytes};
+use super::bound::{self, check_memory, jobs};
 use super::bytes::human;
 use super::failure::Failure;
 use super::flags::Flags;
@@ -48,26 +48,33 @@ fn samples(world: &World) -> Option<String> {
 }
 
 fn words(schedule: &Schedule, world: &World) -> String {
-    let heading = ["system", "", "bytes at most", "", "makes", "for", "why"].map(str::to_owned);
+    let heading =
+        ["system", "", "at most", "bytes", "expected", "makes", "for", "why"].map(str::to_owned);
     let voxels = stats::voxels(world);
-    let read = ["", "", &human(voxels), &voxels.to_string(), "voxels", "", "as they were read"];
-    let total = most_bytes(schedule, world);
-    let sum = ["total", "", &human(total), &total.to_string(), "", "", ""];
+    let plans: Vec<_> = jobs(schedule).map(|job| (job, (job.plan)(world))).collect();
     let beside = [
         (bound::program(), "the program and its threads"),
         (bound::polygons(world), "polygons, as they were read and as rays look for them"),
         (bound::encoding(world), "the file of the picture, while it is made"),
     ];
-    let mut rows = vec![heading, read.map(str::to_owned)];
-    rows.extend(jobs(schedule).map(|job| row(job, &(job.plan)(world), world)));
-    rows.extend(beside.into_iter().filter(|(bytes, _)| *bytes > 0).map(|(bytes, what)| {
-        ["", "", &human(bytes), &bytes.to_string(), "", "", what].map(str::to_owned)
-    }));
-    rows.push(sum.map(str::to_owned));
-    table(&rows, &[2, 3]) + &samples(world).unwrap_or_default()
+    let known = beside.iter().map(|(bytes, _)| bytes).sum::<u64>().saturating_add(voxels);
+    let sum = |bytes: fn(&Plan) -> u64| {
+        plans.iter().fold(known, |sum, (_, plan)| sum.saturating_add(bytes(plan)))
+    };
+    let (most, expected) = (sum(Plan::bytes), sum(Plan::expected));
+    let weighed = |name: &str, [most, expected]: [u64; 2], [makes, why]: [&str; 2]| {
+        let bytes = most.to_string();
+        [name, "", &human(most), &bytes, &human(expected), makes, "", why].map(str::to_owned)
+    };
+    let mut rows = vec![heading, weighed("", [voxels; 2], ["voxels", "as they were read"])];
+    rows.extend(plans.iter().map(|(job, plan)| row(job, plan, world)));
+    let beside = beside.into_iter().filter(|(bytes, _)| *bytes > 0);
+    rows.extend(beside.map(|(bytes, what)| weighed("", [bytes; 2], ["", what])));
+    rows.push(weighed("total", [most, expected], ["", ""]));
+    table(&rows, &[2, 3, 4]) + &samples(world).unwrap_or_default()
 }
 
-fn row(job: &Job, plan: &Plan, world: &World) -> [String; 7] {
+fn row(job: &Job, plan: &Plan, world: &World) -> [String; 8] {
     let runs = !plan.makes.is_empty();
     let name = |entity| world.get::<&Name>(entity).map(|name| name.0.clone()).unwrap_or_default();
     let entities: Vec<_> = plan.makes.iter().map(|(entity, _)| name(*entity)).collect();
@@ -77,6 +84,7 @@ fn row(job: &Job, plan: &Plan, world: &World) -> [String; 7] {
         (if runs { "runs" } else { "does not run" }).to_owned(),
         if runs { human(bytes) } else { String::new() },
         if runs { bytes.to_string() } else { String::new() },
+        if runs { human(plan.expected()) } else { String::new() },
         format!("{:?}", job.makes),
         entities.join(", "),
         plan.why.to_owned(),

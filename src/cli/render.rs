@@ -113,9 +113,8 @@ fn encoded(
     let start = Instant::now();
     let mut results = Results::default();
     let notes = notes(scene, counts, flags, None)?;
-    for out in outs.into_iter().flatten() {
-        results.picture(out, &made.picture, &notes)?;
-    }
+    let outs: Vec<&Path> = outs.into_iter().flatten().collect();
+    results.pictures(&outs, &made.picture, &notes)?;
     if let Some(path) = &flags.rays {
         let array = &made.samples;
         let size = array.layout.size.map(|n| n * POSITIONS);
@@ -131,7 +130,7 @@ pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
     let _span = tracing::info_span!("load").entered();
     let changes = changes(source, flags);
     let data = flags.data_folders();
-    let allowed = memory::allowed(flags, 0);
+    let allowed = memory::allowed(flags.max_memory, 0);
     let most = allowed.map(Allowed::more);
     let scene = gelray::scene::load_within(source, &changes, &data, flags.exact, most).map_err(
         |error| match allowed {

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use gelray::Error;
-use gelray::formats::pictures::{Notes, picture_beside, png_bytes};
-use gelray::formats::whole::{Whole, written_beside};
+use gelray::formats::pictures::{Notes, format_of, picture_beside, png_bytes};
+use gelray::formats::whole::{Whole, appear_together, written_beside};
 use gelray::view::picture::Picture;
 
 use super::failure::{Failure, print_bytes};
@@ -19,18 +19,34 @@ pub struct Results {
 }
 
 impl Results {
-    /// Keeps a picture: in the format that the path says, or as a PNG for standard output.
-    pub fn picture(
+    /// Keeps a picture under each name: in the format that it says, or as a PNG for standard output. Those that are PNGs are
+    /// encoded once.
+    pub fn pictures(
         &mut self,
-        path: &Path,
+        paths: &[&Path],
         picture: &Picture,
         notes: &Notes,
     ) -> Result<(), Failure> {
-        if is_standard(path) {
-            self.printed = png_bytes(picture, notes)
-                .map_err(|problem| Failure::Said(format!("the picture {problem}")))?;
-        } else {
-            self.keep(picture_beside(path, picture, notes)?);
+        let is_png = |path: &Path| {
+            is_standard(path) || format_of(path).is_some_and(|format| format.name == "PNG")
+        };
+        let mut encoded = None;
+        for path in paths {
+            if !is_png(path) {
+                self.keep(picture_beside(path, picture, notes)?);
+                continue;
+            }
+            let bytes = match encoded.take() {
+                Some(bytes) => bytes,
+                None => png_bytes(picture, notes)
+                    .map_err(|problem| Failure::Said(format!("the picture {problem}")))?,
+            };
+            if is_standard(path) {
+                self.printed.clone_from(&bytes);
+            } else {
+                self.keep(written_beside(path, |out| Ok(out.write_all(&bytes)?))?);
+            }
+            encoded = Some(bytes);
         }
         Ok(())
     }
@@ -55,12 +71,12 @@ impl Results {
         self.files.push(file);
     }
 
-    /// Lets all be seen, if nobody asked to stop until now; from here on nothing stops it.
+    /// Lets all be seen, the picture first, if nobody asked to stop until now; from here on nothing stops it.
     pub fn appear(self, interrupt: &Interrupt) -> Result<(), Failure> {
         let _whole = interrupt.hold()?;
         if !self.printed.is_empty() {
             print_bytes(&self.printed)?;
         }
-        Ok(self.files.into_iter().try_for_each(Whole::appear)?)
+        Ok(appear_together(self.files)?)
     }
 }

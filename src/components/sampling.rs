@@ -30,7 +30,8 @@ pub struct Sampling {
     /// ω_min: positions between the last rays, a power of two 1..=`coarsest`.
     #[schemars(range(min = 1, max = 32))]
     pub finest: u32,
-    /// Whether regions that outlines of polygons cross are split to one ray a pixel from the start.
+    /// Whether regions that outlines of polygons cross are split to one ray a pixel from the start, and those of polygons
+    /// thinner than a pixel to `finest`.
     pub outlines: bool,
     /// In which numbers the gel is kept.
     pub texel: TexelKind,

@@ -1,7 +1,7 @@
 //! Output files appear whole or not at all: a temporary file in the same folder, then a rename.
 
 use std::fs::{self, OpenOptions};
-use std::io::{BufWriter, Cursor, Seek, Write};
+use std::io::{BufWriter, Cursor, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -58,6 +58,19 @@ pub fn written_beside(
 }
 
 impl Whole {
+    /// Removes the file that this one is to replace.
+    fn clear(&self) -> Result<(), Error> {
+        match &self.kept {
+            Kept::Beside(_, target) => match fs::remove_file(target) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    Err(unwritable(&self.path, error.into()))
+                }
+                _ => Ok(()),
+            },
+            Kept::Bytes(_) => Ok(()),
+        }
+    }
+
     /// Lets the file be seen under its name, in place of an older one.
     pub fn appear(self) -> Result<(), Error> {
         let Self { path, kept } = self;
@@ -72,6 +85,13 @@ impl Whole {
         };
         appeared.map_err(|error| unwritable(&path, error.into()))
     }
+}
+
+/// Lets the files of one run be seen. The older ones of all but the first are gone before the first is replaced: whenever this
+/// is cut off, what is there is of one run, and the first of them is there if it was before.
+pub fn appear_together(files: Vec<Whole>) -> Result<(), Error> {
+    files.iter().skip(1).try_for_each(Whole::clear)?;
+    files.into_iter().try_for_each(Whole::appear)
 }
 
 /// Writes the file at `path` by way of a program that takes a file's name: `write` is given that of a temporary file
@@ -247,6 +267,29 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"newer");
         write_whole(Path::new("/dev/null"), |out| Ok(out.write_all(b"gone")?)).unwrap();
         assert!(!Path::new("/dev/null").metadata().unwrap().is_file());
+    }
+
+    #[test]
+    fn files_of_one_run_are_never_seen_beside_those_of_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let [picture, rays, stats] = ["a", "b", "c"].map(|name| folder.path().join(name));
+        let written = |path: &Path, run: &str| {
+            written_beside(path, |out| Ok(out.write_all(run.as_bytes())?)).unwrap()
+        };
+        let run = |run| vec![written(&picture, run), written(&rays, run), written(&stats, run)];
+        appear_together(run("1")).unwrap();
+        // The second of three cannot appear: its folder is gone, as if the run had been cut off there.
+        let mut second = run("2");
+        let gone = folder.path().join("gone");
+        fs::create_dir(&gone).unwrap();
+        second[1] = written(&gone.join("b"), "2");
+        fs::remove_dir_all(&gone).unwrap();
+        second.insert(2, written(&rays, "2"));
+        assert!(appear_together(second).is_err());
+        assert_eq!(
+            (fs::read(&picture).unwrap(), names(folder.path())),
+            (b"2".to_vec(), vec!["a".to_owned()])
+        );
     }
 
     #[test]

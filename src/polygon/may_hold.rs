@@ -1,20 +1,23 @@
 //! Which bricks of a volume may be stored, before any is made: what the sizes in a plan follow from.
 
 use hecs::World;
+use rayon::prelude::*;
 
 use super::coverage::{Flat, REACH};
 use super::face::Faces;
-use crate::components::{Classify, Clip, Material, Surface, TexelKind, Voxelize};
+use crate::components::{Classify, Clip, Surface, TexelKind, Voxelize};
 use crate::schedule::Watch;
 use crate::volume::bricks::{self, BrickPlace};
-use crate::volume::classification::Classifier;
-use crate::volume::clipping::{Cut, Left};
-use crate::volume::gel;
-use crate::volume::gradients::Gradients;
+use crate::volume::gel::{self, FAINT};
 use crate::volume::grid::{Painted, Scalars};
+use crate::volume::labels::Tint;
+use crate::volume::opacities::Opacities;
 use crate::volume::painting::Painting;
 use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, around, volumes};
+
+/// Bricks of a volume that are classified for a plan, evenly spread over those that may be seen.
+const LOOKED_AT: usize = 512;
 
 /// For each brick of a volume, whether any of it may be seen: none is stored that this denies.
 #[derive(Debug, Clone)]
@@ -22,6 +25,16 @@ pub(crate) struct MayHold {
     size: [usize; 3],
     counts: [usize; 3],
     held: Vec<bool>,
+    looked: Looked,
+}
+
+/// What a look at some of the bricks tells.
+#[derive(Debug, Clone, Copy)]
+struct Looked {
+    /// The part of those that may be seen that are, 0..=1.
+    seen: f64,
+    /// Whether some voxel is surely above [`FAINT`].
+    opaque: bool,
 }
 
 impl MayHold {
@@ -30,26 +43,39 @@ impl MayHold {
     pub fn of(world: &World, volume: &SceneVolume) -> Self {
         let size = volume.size();
         let counts = bricks::counts(size);
-        let place = |at: usize| {
-            let [nx, ny, _] = counts;
-            BrickPlace::new([at % nx, at / nx % ny, at / (nx * ny)], size)
-        };
-        let all = counts.iter().product();
-        let held = match volume.content {
-            Content::Clear | Content::Projected => vec![false; all],
+        let [nx, ny, _] = counts;
+        let all: usize = counts.iter().product();
+        let unknown = Looked { seen: 1.0, opaque: false };
+        let (held, looked) = match volume.content {
+            Content::Clear | Content::Projected => (vec![false; all], unknown),
             Content::Painted => {
                 let mut found = world.query_one::<(&Painted, Option<&Clip>)>(volume.entity);
                 let Ok((painted, clip)) = found.get() else {
-                    return Self { size, counts, held: vec![true; all] };
+                    return Self { size, counts, held: vec![true; all], looked: unknown };
                 };
                 let painting = Painting::new(painted, &volume.grid, clip);
-                (0..all).map(|at| painting.holds(place(at).brick)).collect()
+                let holds = |at| painting.holds([at % nx, at / nx % ny, at / (nx * ny)]);
+                ((0..all).into_par_iter().map(holds).collect(), unknown)
             }
             // A contour without thickness has one where it casts a shadow.
-            Content::Values => vec![true; all],
-            Content::Classified => classified(world, volume, (0..all).map(place)),
+            Content::Values => (vec![true; all], unknown),
+            Content::Classified => {
+                classified(world, volume).unwrap_or_else(|| (vec![true; all], unknown))
+            }
         };
-        Self { size, counts, held }
+        Self { size, counts, held, looked }
+    }
+
+    /// The part of what may be seen that is expected to be, 0..=1.
+    #[must_use]
+    pub fn seen(&self) -> f64 {
+        self.looked.seen
+    }
+
+    /// Whether some voxel of a volume that is classified is surely not faint.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        self.looked.opaque
     }
 
     /// And those that the polygons touch which are scan-converted into the volume.
@@ -98,30 +124,32 @@ impl MayHold {
     }
 }
 
-/// For each place, whether its scalars, their gradients and the cut leave anything to be seen.
-fn classified(
-    world: &World,
-    volume: &SceneVolume,
-    places: impl ExactSizeIterator<Item = BrickPlace>,
-) -> Vec<bool> {
-    type Stated<'a> = (&'a Scalars, &'a Classify, Option<&'a Clip>, Option<&'a Ranges>);
+/// The bricks of a volume that may be seen; how many of them are, and whether one is sure to be opaque, by those looked at.
+fn classified(world: &World, volume: &SceneVolume) -> Option<(Vec<bool>, Looked)> {
+    type Stated<'a> =
+        (&'a Scalars, &'a Classify, Option<&'a Clip>, Option<&'a Tint>, Option<&'a Ranges>);
     let mut found = world.query_one::<Stated<'_>>(volume.entity);
-    let Ok((scalars, classify, clip, made)) = found.get() else {
-        return vec![true; places.len()];
-    };
+    let (scalars, classify, clip, tint, made) = found.get().ok()?;
     let size = volume.size();
+    let [nx, ny, nz] = bricks::counts(size);
+    let place = |at: usize| BrickPlace::new([at % nx, at / nx % ny, at / (nx * ny)], size);
     let ranges = made.cloned().unwrap_or_else(|| Ranges::of(scalars, size, &Watch::default()));
-    let classifier = Classifier::new(classify, &Material::default(), volume.unit);
-    let cut = clip.map(|clip| Cut::new(clip, &volume.grid));
-    let gradients = Gradients::new(&volume.grid);
-    places
-        .map(|place| {
-            let range = ranges.around(place.brick);
-            let steepest = gradients.at_most(range.spread, place.first, place.extent);
-            let cut_away = cut
-                .as_ref()
-                .is_some_and(|cut| cut.left(place.first, place.extent) == Left::Nothing);
-            classifier.may_show(range, steepest) && !cut_away
+    let opacities = Opacities::new((scalars, &volume.grid), (classify, volume.unit), clip, tint);
+    let held: Vec<bool> = (0..nx * ny * nz)
+        .into_par_iter()
+        .map(|at| opacities.may_hold(&ranges, place(at)))
+        .collect();
+    let may: Vec<usize> = (0..held.len()).filter(|at| held[*at]).collect();
+    let looked: Vec<(bool, bool)> = may
+        .par_iter()
+        .step_by(may.len().div_ceil(LOOKED_AT).max(1))
+        .map(|at| {
+            let mut brick = [0.0; bricks::VOXELS];
+            let seen = opacities.fill(place(*at), &mut brick);
+            (seen, brick.iter().any(|alpha| *alpha > FAINT))
         })
-        .collect()
+        .collect();
+    let seen = looked.iter().filter(|(seen, _)| *seen).count();
+    let opaque = looked.iter().any(|(_, opaque)| *opaque);
+    Some((held, Looked { seen: seen as f64 / looked.len().max(1) as f64, opaque }))
 }

@@ -40,6 +40,8 @@ pub trait System {
 pub struct Plan {
     /// The entities that would carry the product, each with the most bytes that it can take.
     pub makes: Vec<(Entity, u64)>,
+    /// The bytes that all of it is expected to take, where that is less than the most.
+    pub expected: Option<u64>,
     /// Why, in words for a user: the component that asks for it, or the one that is absent.
     pub why: &'static str,
 }
@@ -48,7 +50,33 @@ impl Plan {
     /// Nothing is made, because …
     #[must_use]
     pub fn absent(why: &'static str) -> Self {
-        Self { makes: Vec::new(), why }
+        Self::of_most(Vec::new(), why)
+    }
+
+    /// Each entity with the most bytes, which are also those that are expected.
+    #[must_use]
+    pub fn of_most(makes: Vec<(Entity, u64)>, why: &'static str) -> Self {
+        Self { makes, expected: None, why }
+    }
+
+    /// Of something that was found out about each entity: the most bytes, and the part of them that is expected, 0..=1.
+    #[must_use]
+    pub fn of<T>(
+        found: &[(Entity, T)],
+        most: impl Fn(&T) -> u64,
+        part: impl Fn(&T) -> f64,
+        why: &'static str,
+    ) -> Self {
+        let makes: Vec<_> = found.iter().map(|(entity, found)| (*entity, most(found))).collect();
+        let parts =
+            makes.iter().zip(found).map(|((_, most), (_, found))| *most as f64 * part(found));
+        Self { expected: Some(parts.sum::<f64>() as u64), makes, why }
+    }
+
+    /// The bytes that all of it is expected to take.
+    #[must_use]
+    pub fn expected(&self) -> u64 {
+        self.expected.unwrap_or_else(|| self.bytes())
     }
 
     /// The most bytes that all of it can take.

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::components::TexelKind;
 use crate::schedule::Product;
-pub use texel::{FAINT, Texel};
+pub use texel::{BRIGHT, FAINT, Texel};
 
 /// Cells along one edge of a brick.
 pub const CELLS: usize = 8;

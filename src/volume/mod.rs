@@ -13,6 +13,7 @@ pub mod gradients;
 pub mod grid;
 pub mod labels;
 pub mod layer;
+pub mod opacities;
 pub mod painting;
 pub mod pyramid;
 pub mod ranges;

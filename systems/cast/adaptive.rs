@@ -12,7 +12,7 @@ use super::band::{Band, cut};
 use super::lanes::{LANES, Packet, SIDE, each};
 use super::level::Regions;
 use super::preview::Preview;
-use super::targets::{Caster, Outlines, RayColors};
+use super::targets::{Caster, Crossed, Outlines, RayColors};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::schedule::Watch;
@@ -21,7 +21,7 @@ use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS, SampleArray}
 /// The sample array while it is refined.
 pub(crate) struct Refinement<'a, C> {
     sampling: &'a Sampling,
-    outlines: Option<&'a Outlines>,
+    crossed: &'a Crossed,
     caster: &'a C,
     array: SampleArray,
     /// C_A and C_G, where polygons may ask for supersampling.
@@ -34,7 +34,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
         layout: Layout,
         sampling: &'a Sampling,
         polygons: bool,
-        outlines: Option<&'a Outlines>,
+        crossed: &'a Crossed,
         caster: &'a C,
     ) -> Self {
         let below_a_pixel = polygons && sampling.finest < POSITIONS as u32;
@@ -49,7 +49,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
             counts: Counts::default(),
         };
         let edges = supersampled.then(|| [Colors::new(&layout), Colors::new(&layout)]);
-        Self { sampling, outlines, caster, array, edges }
+        Self { sampling, crossed, caster, array, edges }
     }
 
     /// Casts, splits and casts again, from the coarsest regions to the finest; shows what is known meanwhile to who looks on.
@@ -121,13 +121,18 @@ impl<'a, C: Caster> Refinement<'a, C> {
         level
     }
 
-    /// Whether a region is split whatever textures show: where corners say that an edge is seen, or an outline crosses it.
+    /// Whether a region is split whatever textures show: where corners say that an edge is seen, or an outline crosses it;
+    /// below a pixel, the outline of a polygon that is thinner than that.
     fn has_edge(&self, i: usize, j: usize, side: usize) -> bool {
-        let above_a_pixel = side > POSITIONS
-            && (self.sampling.tolerance <= 0.0
-                || self.outlines.is_some_and(|outlines| outlines.cross(i, j, side)));
+        let crossed = |outlines: &Option<Outlines>| {
+            outlines.as_ref().is_some_and(|outlines| outlines.cross(i, j, side))
+        };
+        let above_a_pixel =
+            side > POSITIONS && (self.sampling.tolerance <= 0.0 || crossed(&self.crossed.outlines));
         let edge = |colors: &Colors| self.range(colors, i, j, side) > self.sampling.edge_tolerance;
-        above_a_pixel || self.edges.as_ref().is_some_and(|edges| edges.iter().all(edge))
+        above_a_pixel
+            || crossed(&self.crossed.thin)
+            || self.edges.as_ref().is_some_and(|edges| edges.iter().all(edge))
     }
 
     /// Whether the corners of a region of more than a pixel differ in C by more than is tolerated.

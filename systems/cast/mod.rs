@@ -68,6 +68,7 @@ use projected::ProjectedFace;
 use projection::Projections;
 use several::{AnyMedium, Several};
 use shaft::Dust;
+use targets::Crossed;
 use texture::FaceTexture;
 use values::Values;
 
@@ -101,12 +102,11 @@ impl System for Cast {
 
     fn plan(world: &World) -> Plan {
         let mut views = world.query::<(Entity, &View, &Sampling, &Extent)>();
-        let bytes = |(entity, view, sampling, extent): (Entity, &View, &Sampling, &Extent)| {
-            let layout = layout(view, sampling);
-            (entity, weight::most_bytes(world, &layout, (view, sampling, extent)))
+        let weight = |(entity, view, sampling, extent): (Entity, &View, &Sampling, &Extent)| {
+            (entity, weight::of(world, &layout(view, sampling), (view, sampling, extent)))
         };
-        let makes = views.iter().map(bytes).collect();
-        Plan { makes, why: "a view is stated" }
+        let found: Vec<_> = views.iter().map(weight).collect();
+        Plan::of(&found, |weight| weight.most, |weight| weight.part, "a view is stated")
     }
 }
 
@@ -184,7 +184,7 @@ fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -
             let color = own.unwrap_or(traced.surface.color);
             let surface = Surface { color, ..traced.surface };
             let looks = Appearance::new(&surface, face.normal, lamps, offsets, texture);
-            ProjectedFace::new(face, camera, looks)
+            ProjectedFace::new(face, camera, looks, traced.faces.0.len())
         })
     });
     // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
@@ -295,9 +295,7 @@ impl Rays<'_> {
     ) -> Result<Samples, Error> {
         let sampling = &inputs.sampling;
         let polygons = !self.polygons.is_empty();
-        // Regions down to two pixels' side are split where outlines cross them.
-        let outlines = (polygons && sampling.outlines && sampling.coarsest > 4)
-            .then(|| self.polygons.outlines(&layout, 8));
+        let crossed = self.polygons.crossed(&layout, sampling);
         let Self { polygons: faces, projections, slabs } = self;
         let supersampled = sampling.finest < 4 && sampling.coarsest > sampling.finest;
         let caster =
@@ -306,11 +304,12 @@ impl Rays<'_> {
         if let Some(preview) = &mut preview {
             for first in preview::before(sampling) {
                 let layout = self::layout(&inputs.view, &first);
-                let sketch = Refinement::new(layout, &first, polygons, None, &caster);
+                let free = Crossed::default();
+                let sketch = Refinement::new(layout, &first, polygons, &free, &caster);
                 preview.level(&sketch.refine(watch, None)?);
             }
         }
-        let array = Refinement::new(layout, sampling, polygons, outlines.as_ref(), &caster)
+        let array = Refinement::new(layout, sampling, polygons, &crossed, &caster)
             .refine(watch, preview.as_mut())?;
         Ok(Samples(Arc::new(array)))
     }

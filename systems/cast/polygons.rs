@@ -3,17 +3,18 @@
 //! Each is sorted into the beams that may meet it; a ray meets those of its beam whose outlines hold it, in the order of
 //! their depths.
 
-use glam::{DVec2, DVec3, Vec4};
+use glam::{DVec3, Vec4};
 
 use super::appearance::Appearance;
 use super::beams::Beams;
 use super::cue::Cue;
 use super::march::{Hit, Shaded};
 use super::projected::ProjectedFace;
-use super::targets::Outlines;
+use super::targets::{Crossed, Outlines};
+use crate::components::Sampling;
 use crate::light::strength::LightStrength;
 use crate::view::camera::Camera;
-use crate::view::samples::{Layout, POSITIONS};
+use crate::view::samples::Layout;
 
 /// Every polygon of a scene on one view, in the order of the scene, and for each beam those it may meet.
 pub struct Polygons {
@@ -148,43 +149,32 @@ impl Polygons {
         appearance.shadowed.iter().enumerate().map(|(light, color)| *color * beta(light)).sum()
     }
 
-    /// Which squares of `side` positions the outlines cross.
-    pub fn outlines(&self, layout: &Layout, side: usize) -> Outlines {
-        let [across, down] = layout.positions().map(|n| (n - 1).div_ceil(side));
-        let mut outlines = Outlines { side, across, crossed: vec![false; across * down] };
-        let square = |window: DVec2| {
-            ((window - 0.5) * POSITIONS as f64 + layout.margin as f64) / side as f64
-        };
-        for outline in self.faces.iter().flat_map(ProjectedFace::outlines) {
+    /// Where outlines ask for rays.
+    pub fn crossed(&self, layout: &Layout, sampling: &Sampling) -> Crossed {
+        let asked = sampling.outlines && !self.is_empty();
+        // Regions down to two pixels' side are split where outlines cross them.
+        let outlines = (asked && sampling.coarsest > 4).then(|| self.outlines(layout, 8, |_| true));
+        let is_thin = ProjectedFace::is_thin;
+        let thin = asked && sampling.finest < 4 && self.faces.iter().any(is_thin);
+        Crossed { outlines, thin: thin.then(|| self.outlines(layout, 4, is_thin)) }
+    }
+
+    /// Which squares of `side` positions the outlines of the `wanted` faces cross.
+    fn outlines(
+        &self,
+        layout: &Layout,
+        side: usize,
+        wanted: impl Fn(&ProjectedFace) -> bool,
+    ) -> Outlines {
+        let mut outlines = Outlines::none(layout, side);
+        for outline in
+            self.faces.iter().filter(|face| wanted(face)).flat_map(ProjectedFace::outlines)
+        {
             for (p, q) in outline.iter().zip(outline.iter().skip(1).chain(outline.first())) {
-                mark(&mut outlines, down, square(*p), square(*q));
+                let [p, q] = [*p, *q].map(|window| outlines.square(layout, window));
+                outlines.mark(p, q);
             }
         }
         outlines
-    }
-}
-
-/// Marks every square that the edge from `p` to `q` (in squares) crosses, and its neighbours within a rounding error.
-fn mark(outlines: &mut Outlines, down: usize, p: DVec2, q: DVec2) {
-    const SLACK: f64 = 1e-6;
-    let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
-    let rows = (low.y - SLACK).floor().max(0.0)..(high.y + SLACK).floor().min(down as f64 - 1.0);
-    let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
-    let mut row = rows.start;
-    while row <= rows.end {
-        let (from, to) = if high.y > low.y {
-            let at = |y: f64| low.x + (y.clamp(low.y, high.y) - low.y) * slope;
-            (at(row), at(row + 1.0))
-        } else {
-            (low.x, high.x)
-        };
-        let first = (from.min(to) - SLACK).floor().max(0.0) as usize;
-        let last = (from.max(to) + SLACK).floor().min(outlines.across as f64 - 1.0);
-        if last >= 0.0 {
-            for x in first..=last as usize {
-                outlines.crossed[row as usize * outlines.across + x] = true;
-            }
-        }
-        row += 1.0;
     }
 }

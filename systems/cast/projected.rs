@@ -24,7 +24,13 @@ pub(crate) struct ProjectedFace {
     high: DVec2,
     plane: Plane,
     appearance: Appearance,
+    thin: bool,
 }
+
+/// A polygon is thin whose area is less than this for each pixel of half its outline: a strip as wide, a square twice as wide.
+const THIN: f64 = 1.0;
+/// More faces than these are facets of a mesh: each is small, and what they cover is not.
+const FEW: usize = 256;
 
 /// The depth of a face's plane at a window position (x, y).
 enum Plane {
@@ -35,8 +41,9 @@ enum Plane {
 }
 
 impl ProjectedFace {
-    /// A face on a view; `None` if it is seen edge-on or lies behind the eye.
-    pub fn new(face: &Face, camera: &Camera, appearance: Appearance) -> Option<Self> {
+    /// A face on a view; `None` if it is seen edge-on or lies behind the eye. It is one of `faces`
+    /// of its entity.
+    pub fn new(face: &Face, camera: &Camera, appearance: Appearance, faces: usize) -> Option<Self> {
         let plane = Plane::of(face, camera)?;
         let outlines: Vec<Vec<DVec2>> =
             face.outlines.iter().map(|outline| projected(outline, camera)).collect();
@@ -45,9 +52,10 @@ impl ProjectedFace {
             .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &v| {
                 (low.min(v), high.max(v))
             });
+        let thin = faces <= FEW && is_thin(&outlines);
         // The box rejects and never decides: rounding there must not take from a polygon what its neighbour leaves to it.
         let (low, high) = (low - OUTSIDE, high + OUTSIDE);
-        low.cmple(high).all().then_some(Self { outlines, low, high, plane, appearance })
+        low.cmple(high).all().then_some(Self { outlines, low, high, plane, appearance, thin })
     }
 
     /// The window positions, least and greatest, outside which a ray is sure to miss it.
@@ -58,6 +66,11 @@ impl ProjectedFace {
     /// Its outlines in window coordinates.
     pub fn outlines(&self) -> &[Vec<DVec2>] {
         &self.outlines
+    }
+
+    /// Whether rays a pixel apart may miss it.
+    pub fn is_thin(&self) -> bool {
+        self.thin
     }
 
     /// How it looks.
@@ -140,6 +153,18 @@ fn projected(outline: &[DVec3], camera: &Camera) -> Vec<DVec2> {
         }
     }
     kept
+}
+
+/// Whether what outlines enclose, in pixels, is less than [`THIN`] wide.
+fn is_thin(outlines: &[Vec<DVec2>]) -> bool {
+    let (mut area, mut length) = (0.0, 0.0);
+    for outline in outlines {
+        for (p, q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+            area += p.perp_dot(*q - *p) / 2.0;
+            length += p.distance(*q);
+        }
+    }
+    area.abs() < THIN * length / 2.0
 }
 
 /// Whether the edge from `p` to `q` passes to the right of `at`, its lower end counted and its upper end not; the same

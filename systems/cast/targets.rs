@@ -1,7 +1,9 @@
 //! What refinement asks for: rays at places of the picture, and the three colours that they bring back.
 
+use glam::DVec2;
+
 use super::lanes::{LANES, Packet};
-use crate::view::samples::Counts;
+use crate::view::samples::{Counts, Layout, POSITIONS};
 
 /// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
 #[derive(Debug, Clone, Copy, Default)]
@@ -28,7 +30,16 @@ pub(crate) trait Caster: Sync {
     );
 }
 
-/// Where regions are to be split to a ray a pixel from the start: a flag for each block of 8 × 8 positions.
+/// Where outlines of polygons ask for rays, whatever the rays around them saw; nothing where that is not asked for.
+#[derive(Default)]
+pub(crate) struct Crossed {
+    /// Where regions are split to a ray a pixel from the start.
+    pub outlines: Option<Outlines>,
+    /// Where they are split to the finest: where polygons are so thin that rays a pixel apart may miss them.
+    pub thin: Option<Outlines>,
+}
+
+/// Where outlines are: a flag for each square of positions.
 pub(crate) struct Outlines {
     /// Side of the flagged squares, in positions.
     pub side: usize,
@@ -39,6 +50,43 @@ pub(crate) struct Outlines {
 }
 
 impl Outlines {
+    /// No outline, over squares of `side` positions.
+    pub fn none(layout: &Layout, side: usize) -> Self {
+        let [across, down] = layout.positions().map(|n| (n - 1).div_ceil(side));
+        Self { side, across, crossed: vec![false; across * down] }
+    }
+
+    /// A place of the window, in pixels, in squares.
+    pub fn square(&self, layout: &Layout, window: DVec2) -> DVec2 {
+        ((window - 0.5) * POSITIONS as f64 + layout.margin as f64) / self.side as f64
+    }
+
+    /// Marks every square that the edge from `p` to `q` (in squares) crosses, and its neighbours within a rounding error.
+    pub fn mark(&mut self, p: DVec2, q: DVec2) {
+        const SLACK: f64 = 1e-6;
+        let down = (self.crossed.len() / self.across) as f64;
+        let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
+        let rows = (low.y - SLACK).floor().max(0.0)..(high.y + SLACK).floor().min(down - 1.0);
+        let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
+        let mut row = rows.start;
+        while row <= rows.end {
+            let (from, to) = if high.y > low.y {
+                let at = |y: f64| low.x + (y.clamp(low.y, high.y) - low.y) * slope;
+                (at(row), at(row + 1.0))
+            } else {
+                (low.x, high.x)
+            };
+            let first = (from.min(to) - SLACK).floor().max(0.0) as usize;
+            let last = (from.max(to) + SLACK).floor().min(self.across as f64 - 1.0);
+            if last >= 0.0 {
+                for x in first..=last as usize {
+                    self.crossed[row as usize * self.across + x] = true;
+                }
+            }
+            row += 1.0;
+        }
+    }
+
     /// Whether an outline crosses the region of `side` positions from `(i, j)` on.
     pub fn cross(&self, i: usize, j: usize, side: usize) -> bool {
         let cells = (side / self.side).max(1);

@@ -1,10 +1,11 @@
 //! The most bytes that a view's sample array takes while its rays are cast, for a plan.
 
-use glam::DVec2;
+use glam::DVec3;
 use hecs::World;
 
+use super::targets::Outlines;
 use crate::components::{DepthCue, Sampling, Surface, View, Voxelize};
-use crate::polygon::face::Faces;
+use crate::polygon::face::{Face, Faces};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::samples::{Layout, POSITIONS};
@@ -13,60 +14,125 @@ use crate::view::samples::{Layout, POSITIONS};
 const COLOR: u64 = 16;
 const FINE: u64 = COLOR * (POSITIONS * POSITIONS) as u64;
 
-/// So many faces more are not looked at one by one: all of the picture may be split below a ray a pixel.
-const MOST_FACES: usize = 1 << 12;
+/// Pairs of faces that are looked at for where they meet; with more of them all of the picture may be split.
+const MOST_PAIRS: usize = 1 << 22;
 
-/// Blocks that are opened for a step of an outline from pixel to pixel: its own and those to the right and below, which
-/// mostly are the next step's own.
-const A_PIXEL: f64 = 2.5;
+/// The part of the outlines that is expected to be seen: what is hidden, or edges of facets alike, is not split.
+const SEEN: f64 = 0.5;
+
+/// The most bytes, and the part of them that is expected.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Weight {
+    pub most: u64,
+    pub part: f64,
+}
 
 /// What the rays of a view take: C at every pixel; where polygons are traced, C_A and C_G too; and the positions between
 /// where a region may be split below a ray a pixel.
-pub fn most_bytes(
+pub(crate) fn of(
     world: &World,
     layout: &Layout,
     (view, sampling, extent): (&View, &Sampling, &Extent),
-) -> u64 {
+) -> Weight {
     let mut query = world.query::<&Faces>().with::<&Surface>().without::<&Voxelize>();
     let traced: Vec<&Faces> = query.iter().collect();
-    let faces: usize = traced.iter().map(|faces| faces.0.len()).sum();
     let blocks = layout.blocks().iter().product::<usize>() as u64;
     let all_open = (sampling.coarsest as usize) < POSITIONS;
-    let supersampled =
-        faces > 0 && (sampling.finest as usize) < POSITIONS && sampling.coarsest > sampling.finest;
+    let supersampled = traced.iter().any(|faces| !faces.0.is_empty())
+        && (sampling.finest as usize) < POSITIONS
+        && sampling.coarsest > sampling.finest;
     let colors = if supersampled { 3 } else { 1 };
-    let open = if all_open {
-        blocks
+    let (open, seen) = if all_open {
+        (blocks, 1.0)
     } else if !supersampled {
-        0
-    } else if faces > MOST_FACES || world.query::<&DepthCue>().iter().next().is_some() {
-        blocks
+        (0, 1.0)
+    } else if world.query::<&DepthCue>().iter().next().is_some() {
+        (blocks, SEEN)
     } else {
-        opened(&traced, faces, &Camera::new(view, extent)).map_or(blocks, |open| open.min(blocks))
+        (opened(&traced, &Camera::new(view, extent), layout).unwrap_or(blocks), SEEN)
     };
     // A number, flags of rays and of splits for each block, and the flags of two levels while they are decided on.
-    blocks * (colors * COLOR + 4 + 2 + 1 + 2) + open * colors * FINE
+    let always = blocks * (colors * COLOR + 4 + 2 + 1 + 2);
+    let opened = open * colors * FINE;
+    let most = always + opened;
+    Weight { most, part: (always as f64 + opened as f64 * seen) / most.max(1) as f64 }
 }
 
-/// The most blocks that outlines and intersections of polygons pass through; `None` where some lie behind the eye.
-fn opened(traced: &[&Faces], faces: usize, camera: &Camera) -> Option<u64> {
-    let window = camera.size.iter().sum::<usize>() as f64;
-    let mut length = 0.0;
-    for outline in traced.iter().flat_map(|faces| faces.0.iter()).flat_map(|face| &face.outlines) {
-        let drawn: Option<Vec<DVec2>> = outline
-            .iter()
-            .map(|vertex| {
-                let (at, depth) = camera.project(*vertex);
-                let seen = camera.eye.is_none_or(|eye| depth > -0.99 * eye) && at.is_finite();
-                seen.then_some(at)
-            })
-            .collect();
-        let drawn = drawn?;
-        let next = drawn.iter().cycle().skip(1);
-        let pixels = |(a, b): (&DVec2, &DVec2)| (*a - *b).abs().element_sum().min(window) + 2.0;
-        length += drawn.iter().zip(next).map(pixels).sum::<f64>();
+/// The most blocks that are opened: those that outlines and intersections of polygons pass through, and those to the right
+/// and below of them. `None` where some lie behind the eye, or polygons are too many to look at each pair.
+fn opened(traced: &[&Faces], camera: &Camera, layout: &Layout) -> Option<u64> {
+    let mut outlines = Outlines::none(layout, POSITIONS);
+    let mut mark = |edge: [DVec3; 2]| {
+        let drawn = |vertex: DVec3| {
+            let (at, depth) = camera.project(vertex);
+            let seen = camera.eye.is_none_or(|eye| depth > -0.99 * eye) && at.is_finite();
+            seen.then(|| outlines.square(layout, at))
+        };
+        let [p, q] = edge.map(drawn);
+        outlines.mark(p?, q?);
+        Some(())
+    };
+    let faces: Vec<&Face> = traced.iter().flat_map(|faces| faces.0.iter()).collect();
+    for outline in faces.iter().flat_map(|face| &face.outlines) {
+        for (p, q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+            mark([*p, *q])?;
+        }
     }
-    // Two polygons meet along a line no longer than half of the shorter outline.
-    let meeting = 1.0 + (faces.saturating_sub(1) as f64) / 4.0;
-    Some((A_PIXEL * length * meeting) as u64)
+    meetings(&faces, &mut mark)?;
+    let Outlines { across, crossed, .. } = &outlines;
+    let opened = |at: usize| {
+        crossed[at]
+            || (!at.is_multiple_of(*across) && crossed[at - 1])
+            || at.checked_sub(*across).is_some_and(|above| crossed[above])
+    };
+    let within = (0..crossed.len()).filter(|at| opened(*at)).count();
+    // The last blocks of a row and of the picture begin no region.
+    let border = layout.blocks().iter().sum::<usize>();
+    Some((within + border) as u64)
+}
+
+/// Hands out where two faces may meet: the part of the line of their planes that lies in the boxes of both.
+fn meetings(faces: &[&Face], mut mark: impl FnMut([DVec3; 2]) -> Option<()>) -> Option<()> {
+    let boxed = |face: &&Face| {
+        let vertices = face.outlines.iter().flatten();
+        let ends = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        vertices.fold(ends, |[low, high], vertex| [low.min(*vertex), high.max(*vertex)])
+    };
+    let mut boxes: Vec<_> = faces.iter().map(|face| (boxed(face), *face)).collect();
+    boxes.sort_by(|a, b| a.0[0].x.total_cmp(&b.0[0].x));
+    let mut left = MOST_PAIRS;
+    for (at, ([low, high], face)) in boxes.iter().enumerate() {
+        for ([other_low, other_high], other) in
+            boxes[at + 1..].iter().take_while(|(other, _)| other[0].x <= high.x)
+        {
+            left = left.checked_sub(1)?;
+            let (low, high) = (low.max(*other_low), high.min(*other_high));
+            if low.cmple(high).all()
+                && let Some(line) = meeting(face, other, low, high)
+            {
+                mark(line)?;
+            }
+        }
+    }
+    Some(())
+}
+
+/// The part within a box of the line in which the planes of two faces meet; `None` for parallel ones and outside of it.
+fn meeting(a: &Face, b: &Face, low: DVec3, high: DVec3) -> Option<[DVec3; 2]> {
+    let along = a.normal.cross(b.normal);
+    let square = along.length_squared();
+    if square < 1e-18 {
+        return None;
+    }
+    let [ha, hb] = [a, b].map(|face| face.normal.dot(face.center));
+    let point = (b.normal.cross(along) * ha + along.cross(a.normal) * hb) / square;
+    let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+    // A little more, for what is rounded.
+    let slack = 1e-6 * (high - low).max_element();
+    for axis in (0..3).filter(|axis| along[*axis] != 0.0) {
+        let ends = [low[axis] - slack, high[axis] + slack];
+        let [p, q] = ends.map(|end| (end - point[axis]) / along[axis]);
+        (from, to) = (from.max(p.min(q)), to.min(p.max(q)));
+    }
+    (from <= to).then(|| [point + along * from, point + along * to])
 }

@@ -57,7 +57,7 @@ impl System for Furnish {
         let mut views = world.query::<(Entity, &View)>();
         let bytes = |view: &View| view.size.iter().map(|&n| u64::from(n)).product::<u64>() * 16;
         let makes = views.iter().map(|(entity, view)| (entity, bytes(view))).collect();
-        Plan { makes, why: "furniture is drawn over the picture" }
+        Plan::of_most(makes, "furniture is drawn over the picture")
     }
 }
 

@@ -21,11 +21,12 @@ use crate::light::shading::toward;
 use crate::light::strength::{
     Buffer, Falloff, LightStrength, ProjectedBy, Shear, Slide, VoxelStrength, quantize,
 };
+use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
-use crate::volume::bricks::most_bytes;
 use crate::volume::grid::Grid;
 use crate::volume::layer::{Composite, Coverage, Opacity};
+use crate::volume::scene_volumes::SceneVolume;
 use casters::Casters;
 use columns::Columns;
 use inputs::{Inputs, LitVolume, lit_volumes, reads_buffer, stated_volumes};
@@ -83,7 +84,11 @@ impl System for LightSweep {
             let toward = toward(light, observer::direction(world));
             // What comes through each of several volumes weakens the light in the others.
             let buffer = volumes.len() > 1 || reads_buffer(world, entity);
-            let most = volumes.iter().map(|v| most(&v.grid, toward, shadow, buffer));
+            let lit =
+                |v: &SceneVolume| MayHold::of(world, v).with_polygons(world, v).bytes::<u16>();
+            let most = volumes
+                .iter()
+                .map(|v| lit(v).saturating_add(most(&v.grid, toward, shadow, buffer)));
             (entity, most.fold(0, u64::saturating_add))
         };
         let makes: Vec<_> = lights.into_iter().map(bytes).collect();
@@ -94,11 +99,11 @@ impl System for LightSweep {
         } else {
             "`casts_shadow`; only the slices within the bias are kept, since nothing reads a 3D light-strength buffer"
         };
-        Plan { makes, why }
+        Plan::of_most(makes, why)
     }
 }
 
-/// The most bytes that a light's strengths take, and the slices in memory while they are made.
+/// The most bytes that columns and slices of a light take, those in memory while strengths are made too.
 fn most(grid: &Grid, toward: DVec3, shadow: &CastsShadow, buffer: bool) -> u64 {
     let Some(shear) = Shear::new(grid, toward) else {
         return 0;
@@ -107,8 +112,7 @@ fn most(grid: &Grid, toward: DVec3, shadow: &CastsShadow, buffer: bool) -> u64 {
     let ring = depth(bias_slices(grid, &shear, shadow), &shear) * size_of::<f32>();
     let columns = 2 * size_of::<f64>();
     let all = if buffer { shear.size[2] * size_of::<u16>() } else { 0 };
-    let columns = kept.saturating_mul((ring + columns + all) as u64);
-    most_bytes::<u16>(grid.size).saturating_add(columns)
+    kept.saturating_mul((ring + columns + all) as u64)
 }
 
 /// The bias along the light, in slices; rounded to 2⁻²⁰, so that a whole number of slices stays one. A bias past the whole

@@ -93,14 +93,15 @@ impl System for MattePolygons {
         }
         let cued = observer::is_cued(world);
         let shadowed = world.query::<&Light>().with::<&CastsShadow>().iter().count();
-        let bytes = |volume: &SceneVolume| {
-            let held = MayHold::of(world, volume).with_polygons(world, volume);
-            let colors =
-                (1 + u64::from(cued) + shadowed as u64).saturating_mul(held.bytes::<[f32; 3]>());
-            colors.saturating_add(held.bytes::<f32>())
+        let held: Vec<_> = volumes
+            .iter()
+            .map(|v| (v.entity, MayHold::of(world, v).with_polygons(world, v)))
+            .collect();
+        let colors = 1 + u64::from(cued) + shadowed as u64;
+        let most = |held: &MayHold| {
+            colors.saturating_mul(held.bytes::<[f32; 3]>()).saturating_add(held.bytes::<f32>())
         };
-        let makes = volumes.iter().map(|volume| (volume.entity, bytes(volume))).collect();
-        Plan { makes, why: "a polygon carries `voxelize`" }
+        Plan::of(&held, most, MayHold::seen, "a polygon carries `voxelize`")
     }
 }
 

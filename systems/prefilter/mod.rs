@@ -38,7 +38,7 @@ impl System for Prefilter {
         if makes.is_empty() {
             return Plan::absent("no values are sampled with `sampling.filter` interpolating");
         }
-        Plan { makes, why: "`sampling.filter` is interpolating: a spline goes through the voxels" }
+        Plan::of_most(makes, "`sampling.filter` is interpolating: a spline goes through the voxels")
     }
 }
 

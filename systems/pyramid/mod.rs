@@ -95,7 +95,7 @@ impl System for StackPyramid {
         if makes.is_empty() {
             return Plan::absent("no volume is stated");
         }
-        Plan { makes, why: "`sampling.skip` is the pyramid" }
+        Plan::of_most(makes, "`sampling.skip` is the pyramid")
     }
 }
 

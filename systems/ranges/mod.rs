@@ -37,6 +37,6 @@ impl System for FindRanges {
         if makes.is_empty() {
             return Plan::absent("no volume of scalars states `classify`");
         }
-        Plan { makes, why: "bricks whose scalars rule out that they are seen are not classified" }
+        Plan::of_most(makes, "bricks whose scalars rule out that they are seen are not classified")
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::components::TexelKind;
 use crate::light::strength::VoxelStrength;
 use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
-use crate::volume::gel::{FAINT, GelBricks};
+use crate::volume::gel::{BRIGHT, FAINT, GelBricks};
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl LitLayer<'_> {
             let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, |s| s.full);
             let shadowed = self.shadowed.iter();
             let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
-            channel(self.base) + shadowed > 1.0
+            channel(self.base) + shadowed > BRIGHT
         };
         let bright = || bricks.par_iter().any(|(place, _)| bright(*place));
         if opaque && !bright() { TexelKind::U16 } else { TexelKind::F32 }

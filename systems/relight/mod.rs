@@ -1,6 +1,7 @@
 //! `relight`: equation 4, `c_T = Σ c_i β_i`, and the associated gel `c_T · α` that rays meet.
 
 mod lit_layer;
+mod planned;
 
 use glam::Vec4;
 use hecs::{Entity, World};
@@ -21,6 +22,7 @@ use crate::volume::painting::Painting;
 use crate::volume::scene_volumes::{Content, SceneVolume, gels, with_content};
 
 use lit_layer::LitLayer;
+use planned::planned;
 
 /// Makes the [`Gel`] of every volume.
 pub(crate) struct Relight;
@@ -69,20 +71,24 @@ impl System for Relight {
         let texel = observer::sampling(world).texel;
         let cued = observer::is_cued(world);
         let matted = world.query::<&Voxelize>().iter().next().is_some();
-        let bytes = |v: &SceneVolume| {
+        let held = |v: &SceneVolume| {
+            let held = MayHold::of(world, v);
+            let kind = planned(world, v, &held, texel);
             // Ambient light is kept apart for a depth cue; paint alone has none.
             let apart = cued && (matted || v.content != Content::Painted);
-            let held = MayHold::of(world, v).with_polygons(world, v);
-            held.gel_bytes(texel).saturating_mul(1 + u64::from(apart))
+            (held.with_polygons(world, v), kind, 1 + u64::from(apart))
         };
-        let makes: Vec<_> = gels(world).iter().map(|v| (v.entity, bytes(v))).collect();
-        if makes.is_empty() && !with_content(world, Content::Values).is_empty() {
+        let made: Vec<_> = gels(world).iter().map(|v| (v.entity, held(v))).collect();
+        if made.is_empty() && !with_content(world, Content::Values).is_empty() {
             return Plan::absent("`reconstruct` is values: rays sample the scalars themselves");
         }
-        if makes.is_empty() {
+        if made.is_empty() {
             return Plan::absent("no volume is stated");
         }
-        Plan { makes, why: "rays sample a volume as gel" }
+        let most = |(held, kind, parts): &(MayHold, TexelKind, u64)| {
+            held.gel_bytes(*kind).saturating_mul(*parts)
+        };
+        Plan::of(&made, most, |(held, ..)| held.seen(), "rays sample a volume as gel")
     }
 }
 

@@ -35,9 +35,7 @@ impl System for Resample {
     fn plan(world: &World) -> Plan {
         let mut views = world.query::<(Entity, &View)>();
         let bytes = |view: &View| view.size.iter().map(|&n| u64::from(n)).product::<u64>() * 16;
-        Plan {
-            makes: views.iter().map(|(entity, view)| (entity, bytes(view))).collect(),
-            why: "a view is stated",
-        }
+        let makes = views.iter().map(|(entity, view)| (entity, bytes(view))).collect();
+        Plan::of_most(makes, "a view is stated")
     }
 }

@@ -123,7 +123,7 @@ impl System for ScanConvert {
         if makes.is_empty() {
             return Plan::absent("no polygon carries `voxelize` or casts a shadow");
         }
-        Plan { makes, why: "a polygon carries `voxelize`, or casts a shadow into the volume" }
+        Plan::of_most(makes, "a polygon carries `voxelize`, or casts a shadow into the volume")
     }
 }
 

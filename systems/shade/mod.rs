@@ -16,7 +16,7 @@ use crate::volume::gradients::{Gradients, normal};
 use crate::volume::grid::{Grid, Scalar, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::{LitColors, Opacity};
-use crate::volume::scene_volumes::{Content, SceneVolume, with_content};
+use crate::volume::scene_volumes::{Content, with_content};
 use crate::with_scalars;
 
 /// Voxels under a cut that are shaded by its normal alone: those between which the opacity rises, and the next.
@@ -91,14 +91,16 @@ impl System for Shade {
     fn plan(world: &World) -> Plan {
         let shadows = world.query::<(&Light, &CastsShadow)>().iter().count() as u64;
         let arrays = 1 + shadows + u64::from(observer::is_cued(world));
-        let bytes =
-            |v: &SceneVolume| MayHold::of(world, v).bytes::<[f32; 3]>().saturating_mul(arrays);
-        let makes: Vec<_> =
-            with_content(world, Content::Classified).iter().map(|v| (v.entity, bytes(v))).collect();
-        if makes.is_empty() {
+        let held: Vec<_> = with_content(world, Content::Classified)
+            .iter()
+            .map(|v| (v.entity, MayHold::of(world, v)))
+            .collect();
+        if held.is_empty() {
             return Plan::absent("no volume of scalars is classified at its voxels");
         }
-        Plan { makes, why: "a volume that is classified is shaded by the lights of the scene" }
+        let most = |held: &MayHold| held.bytes::<[f32; 3]>().saturating_mul(arrays);
+        let why = "a volume that is classified is shaded by the lights of the scene";
+        Plan::of(&held, most, MayHold::seen, why)
     }
 }
 

@@ -17,5 +17,6 @@ mod scales;
 mod several;
 mod stopping;
 mod support;
+mod thin;
 mod thrift;
 mod watertight;

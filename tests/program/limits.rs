@@ -21,6 +21,13 @@ fn a_process_that_the_system_lets_have_little_memory_says_so() {
         assert_eq!(code, Some(1), "{kilobytes}: {said}");
         assert!(said.contains("ulimit") && said.lines().count() == 1, "{kilobytes}: {said}");
     }
+    // Enough for a small scene, or a sentence: whatever the limit, nothing else.
+    for kilobytes in (40_000..400_000).step_by(40_000) {
+        let (code, said) = tried(kilobytes, "render cross.toml -t 3 -q -o a.png --size 99x99");
+        assert!(matches!(code, Some(0 | 1)), "{kilobytes}: {code:?} {said}");
+        assert!(code == Some(0) || said.lines().count() == 1, "{kilobytes}: {said}");
+        let _ = std::fs::remove_file(place.path("a.png"));
+    }
     let (code, said) = tried(60_000, "render cross.toml -t 512 -q -o a.png");
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("--threads") && said.lines().count() == 1, "{said}");

@@ -71,7 +71,7 @@ fn a_picture_that_shows_nothing_is_warned_of_with_the_reason() {
         "{}",
         ran.err
     );
-    let ran = place.done("render cross.toml -o b.png --set observer.view.focal_point=[999,0,0]");
+    let ran = place.done("render cross.toml -o b.png --set observer.view.focal_point=[999,0,0] --set observer.view.height_mm=40");
     assert!(
         ran.err.contains("the picture is empty: nothing that is stated lies in the view"),
         "{}",

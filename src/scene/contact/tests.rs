@@ -20,7 +20,7 @@ fn block(outside: i16, inside: i16, noise: i16) -> Vec<u8> {
     let value = |i: usize| {
         let within = |n: usize| (5..15).contains(&n);
         let here = within(i % 20) && within(i / 20 % 20) && within(i / 400);
-        (if here { inside } else { outside }) + noise * (i as i16 * 37 % 11) / 11
+        (if here { inside } else { outside }) + noise * ((i as i16).wrapping_mul(37) % 11) / 11
     };
     header.bytes().chain((0..8000).flat_map(|i| value(i).to_le_bytes())).collect()
 }

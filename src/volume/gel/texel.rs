@@ -5,6 +5,9 @@ use glam::Vec4;
 /// Gel that is nowhere more opaque than this is kept in 32 bits, where that is left open.
 pub const FAINT: f32 = 1.0 / 16.0;
 
+/// A color may be above 1 by half a step of 16 bits, where that is left open: cut to 1 it is as near as any is rounded.
+pub const BRIGHT: f32 = 1.0 + 0.5 / 65535.0;
+
 /// A number type that four channels of the gel are kept in; colour and opacity in 0..=1.
 pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The channels as stored numbers: 1 is `1 / SCALE`.
