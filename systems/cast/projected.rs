@@ -83,11 +83,15 @@ impl ProjectedFace {
         if at.cmplt(self.low).any() || at.cmpgt(self.high).any() {
             return false;
         }
-        let edges = self
-            .outlines
-            .iter()
-            .flat_map(|outline| outline.iter().zip(outline.iter().skip(1).chain(outline.first())));
-        edges.filter(|(p, q)| crosses(**p, **q, at)).count() % 2 == 1
+        let mut inside = false;
+        for outline in &self.outlines {
+            let mut from = outline.last().copied().unwrap_or_default();
+            for to in outline {
+                inside ^= crosses(from, *to, at);
+                from = *to;
+            }
+        }
+        inside
     }
 
     /// The depth of its plane at a window position, world units.
