@@ -5,7 +5,7 @@
 //! bit depends on the set of instructions.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4};
+use fearless_simd::{Level, dispatch};
 use glam::{Mat3, Vec3};
 
 use super::filter::Taps;
@@ -45,6 +45,8 @@ pub struct Sampled {
 struct Axis {
     at: [usize; 4],
     taps: Taps,
+    /// Whether all four are there, one step after the other.
+    whole: bool,
 }
 
 impl<'a> Field<'a> {
@@ -58,24 +60,21 @@ impl<'a> Field<'a> {
     /// Fills in what the field is at some spots, which count as the nearest inside the grid.
     pub fn sample(&self, level: Level, spots: &[Spot], made: &mut [Sampled]) {
         with_scalars!(self.scalars, values => {
-            dispatch!(level, simd => self.sample_all(simd, values, spots, made));
+            dispatch!(level, _simd => self.sample_all(values, spots, made));
         });
     }
 
     #[inline(always)]
-    fn sample_all<S: Simd, T: Scalar>(
-        &self,
-        simd: S,
-        values: &[T],
-        spots: &[Spot],
-        made: &mut [Sampled],
-    ) {
+    fn sample_all<T: Scalar>(&self, values: &[T], spots: &[Spot], made: &mut [Sampled]) {
         for (spot, made) in spots.iter().zip(made) {
-            let axes = self.axes(spot);
+            // One by one: an array of them that a closure makes is written in pieces and waited for as a whole.
+            let (x, y) = (self.axis(spot, 0, 1), self.axis(spot, 1, self.size[0]));
+            let z = self.axis(spot, 2, self.size[0] * self.size[1]);
+            let axes = [&x, &y, &z];
             let (value, slopes) = if self.filter == Filter::Linear {
-                gather::<S, T, true>(simd, values, &axes)
+                gather::<T, true>(values, axes)
             } else {
-                gather::<S, T, false>(simd, values, &axes)
+                gather::<T, false>(values, axes)
             };
             let [x, y, z] = slopes;
             let gradient = self.to_world.x_axis * x + self.to_world.y_axis * y;
@@ -84,61 +83,97 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// The voxels of an axis that a spot is made of, and whether they lie side by side.
     #[inline(always)]
-    fn axes(&self, spot: &Spot) -> [Axis; 3] {
-        let strides = [1, self.size[0], self.size[0] * self.size[1]];
-        std::array::from_fn(|axis| {
-            let (last, stride) = (self.size[axis] - 1, strides[axis]);
-            // The last plane of voxels is the end of the last cell.
-            let (cell, part) = if spot.cell[axis] >= last {
-                (last - 1, 1.0)
-            } else {
-                (spot.cell[axis], spot.part[axis])
-            };
-            let ends = [cell == 0, cell + 2 > last];
-            let taps = Taps::new(self.filter, part);
-            let taps = if ends[0] || ends[1] { taps.ended(ends) } else { taps };
+    fn axis(&self, spot: &Spot, axis: usize, stride: usize) -> Axis {
+        let last = self.size[axis] - 1;
+        // The last plane of voxels is the end of the last cell.
+        let (cell, part) = if spot.cell[axis] >= last {
+            (last - 1, 1.0)
+        } else {
+            (spot.cell[axis], spot.part[axis])
+        };
+        let taps = Taps::new(self.filter, part);
+        let ends = [cell == 0, cell + 2 > last];
+        if ends[0] || ends[1] {
             let before = cell.saturating_sub(1);
             let at = [before, cell, cell + 1, (cell + 2).min(last)].map(|voxel| voxel * stride);
-            Axis { at, taps }
-        })
+            return Axis { at, taps: taps.ended(ends), whole: false };
+        }
+        let first = (cell - 1) * stride;
+        let at = [first, first + stride, first + 2 * stride, first + 3 * stride];
+        Axis { at, taps, whole: true }
     }
 }
 
-/// The value, and the slopes per voxel. Of a linear field, what counts for nothing is not looked at.
+/// The 4³ voxels around a spot, x fastest.
+type Block = [[[f32; 4]; 4]; 4];
+
+/// The voxels that a spot is made of. Of a linear field, those that count for nothing are not looked at.
+///
+/// In plain arrays: a row then is one widening load, where vector types are put together from pieces.
 #[inline(always)]
-fn gather<S: Simd, T: Scalar, const LINEAR: bool>(
-    simd: S,
-    values: &[T],
-    [x, y, z]: &[Axis; 3],
-) -> (f32, [f32; 3]) {
-    // Differences from a voxel of the cell: where nothing changes, no rounding makes a slope.
-    let base = values[x.at[1] + y.at[1] + z.at[1]].value();
-    let (zero, bases) = (f32x4::splat(simd, 0.0), f32x4::splat(simd, base));
-    let inner = |tap: usize| !LINEAR || tap == 1 || tap == 2;
-    let (mut sum, mut along_y, mut along_z) = (zero, zero, zero);
-    for k in 0..4 {
-        let (mut row_sum, mut row_slope) = (zero, zero);
-        for j in 0..4 {
-            if !inner(j) && !inner(k) {
+fn block<T: Scalar, const LINEAR: bool>(values: &[T], [x, y, z]: [&Axis; 3]) -> Block {
+    let mut block = [[[0.0; 4]; 4]; 4];
+    for (k, slice) in block.iter_mut().enumerate() {
+        for (j, row) in slice.iter_mut().enumerate() {
+            if LINEAR && !is_inner(j) && !is_inner(k) {
                 continue;
             }
-            let row = f32x4::from_slice(simd, &row(values, z.at[k] + y.at[j], x.at)) - bases;
+            let first = z.at[k] + y.at[j];
+            if x.whole {
+                let four = &values[first + x.at[0]..][..4];
+                *row = [four[0].value(), four[1].value(), four[2].value(), four[3].value()];
+            } else {
+                *row = x.at.map(|at| values[first + at].value());
+            }
+        }
+    }
+    block
+}
+
+/// Whether a voxel of an axis is one of the two that the spot lies between.
+#[inline(always)]
+fn is_inner(tap: usize) -> bool {
+    tap == 1 || tap == 2
+}
+
+/// `row · weight + sum`, the product rounded first.
+#[inline(always)]
+fn add(row: [f32; 4], weight: f32, sum: [f32; 4]) -> [f32; 4] {
+    let mut made = [0.0; 4];
+    for n in 0..4 {
+        made[n] = row[n] * weight + sum[n];
+    }
+    made
+}
+
+/// The value, and the slopes per voxel.
+#[inline(always)]
+fn gather<T: Scalar, const LINEAR: bool>(values: &[T], axes: [&Axis; 3]) -> (f32, [f32; 3]) {
+    let (block, [x, y, z]) = (block::<T, LINEAR>(values, axes), axes);
+    // Differences from a voxel of the cell: where nothing changes, no rounding makes a slope.
+    let base = block[1][1][1];
+    let inner = |tap: usize| !LINEAR || is_inner(tap);
+    let (mut sum, mut along_y, mut along_z) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+    for (k, slice) in block.iter().enumerate() {
+        let (mut row_sum, mut row_slope) = ([0.0; 4], [0.0; 4]);
+        for (j, row) in slice.iter().enumerate() {
+            let row = row.map(|value| value - base);
             if inner(j) {
-                row_sum = row * y.taps.weights[j] + row_sum;
+                row_sum = add(row, y.taps.weights[j], row_sum);
             }
             if inner(k) {
-                row_slope = row * y.taps.slopes[j] + row_slope;
+                row_slope = add(row, y.taps.slopes[j], row_slope);
             }
         }
         if inner(k) {
-            sum = row_sum * z.taps.weights[k] + sum;
-            along_y = row_slope * z.taps.weights[k] + along_y;
+            sum = add(row_sum, z.taps.weights[k], sum);
+            along_y = add(row_slope, z.taps.weights[k], along_y);
         }
-        along_z = row_sum * z.taps.slopes[k] + along_z;
+        along_z = add(row_sum, z.taps.slopes[k], along_z);
     }
-    let of = |row: f32x4<S>, taps: &[f32; 4], inner: bool| {
-        let row = row.as_slice();
+    let of = |row: [f32; 4], taps: &[f32; 4], inner: bool| {
         let middle = row[1] * taps[1] + row[2] * taps[2];
         if inner { middle } else { (row[0] * taps[0] + row[3] * taps[3]) + middle }
     };
@@ -146,17 +181,6 @@ fn gather<S: Simd, T: Scalar, const LINEAR: bool>(
     let gradient =
         [of(sum, slopes, false), of(along_y, weights, LINEAR), of(along_z, weights, LINEAR)];
     (base + of(sum, weights, LINEAR), gradient)
-}
-
-/// Four voxels of a row.
-#[inline(always)]
-fn row<T: Scalar>(values: &[T], first: usize, at: [usize; 4]) -> [f32; 4] {
-    if at[3] - at[0] == 3 {
-        let four = &values[first + at[0]..][..4];
-        [four[0].value(), four[1].value(), four[2].value(), four[3].value()]
-    } else {
-        at.map(|at| values[first + at].value())
-    }
 }
 
 #[inline(always)]

@@ -1,4 +1,5 @@
 //! Reconstruction along one axis: what each of four voxels counts for a value between them, and for its slope.
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
 use crate::components::Filter;
 
@@ -17,7 +18,7 @@ impl Taps {
     /// The slopes are those of the weights, but for linear reconstruction: there they interpolate the central differences
     /// at the voxels, as the paper's gradients are.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn new(filter: Filter, t: f32) -> Self {
         let s = 1.0 - t;
         match filter {
