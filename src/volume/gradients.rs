@@ -30,6 +30,25 @@ enum ToWorld {
 /// More than what is lost of a number of 32 bits so small that it has few digits.
 const LEAST: f64 = 1e-44;
 
+/// How long the gradients of a block may be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Steepest {
+    /// Of a spread, what the difference per voxel is at most.
+    per: f64,
+    steepest: f64,
+}
+
+impl Steepest {
+    /// The length that none exceeds where scalars differ by at most `spread`.
+    #[must_use]
+    #[inline]
+    pub fn of(self, spread: f32) -> f64 {
+        // A little more, for what is rounded on the way through 32 bits.
+        let most = self.steepest * (f64::from(spread) * self.per * (1.0 + 1e-5) + LEAST) + LEAST;
+        if spread <= 0.0 { 0.0 } else { most }
+    }
+}
+
 impl Gradients {
     /// The gradients on `grid`.
     #[must_use]
@@ -51,14 +70,17 @@ impl Gradients {
     #[must_use]
     #[inline]
     pub fn at_most(&self, spread: f32, first: [usize; 3], extent: [usize; 3]) -> f64 {
-        if spread <= 0.0 {
-            return 0.0;
-        }
+        self.at_most_per(first, extent).of(spread)
+    }
+
+    /// [`at_most`](Self::at_most) of a block, for any spread.
+    #[must_use]
+    #[inline]
+    pub(crate) fn at_most_per(&self, first: [usize; 3], extent: [usize; 3]) -> Steepest {
         let one_sided =
             |axis: usize| first[axis] == 0 || first[axis] + extent[axis] >= self.size[axis];
         let per = if (0..3).any(one_sided) { 1.0 } else { 0.5 };
-        // A little more, for what is rounded on the way through 32 bits.
-        self.steepest * (f64::from(spread) * per * (1.0 + 1e-5) + LEAST) + LEAST
+        Steepest { per, steepest: self.steepest }
     }
 
     /// The gradient of one voxel of `scalars`. Panics outside the grid.

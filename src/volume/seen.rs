@@ -7,10 +7,10 @@ use super::bricks::EDGE;
 use super::classification::Classifier;
 use super::clipping::{Cut, Left};
 use super::filter::{overshoot, steepness};
-use super::gradients::Gradients;
+use super::gradients::{Gradients, Steepest};
 use super::grid::{Grid, Scalar, Scalars};
 use super::pyramid::Pyramid;
-use super::ranges::{Range, Ranges};
+use super::ranges::Ranges;
 use crate::components::Filter;
 use crate::schedule::Watch;
 use crate::with_scalars;
@@ -70,33 +70,29 @@ impl Seen<'_> {
     /// Whether anything of a brick of cells may be seen, by the ranges of the bricks that it reaches.
     fn may_show(&self, gradients: &Gradients, brick: [usize; 3], counts: [usize; 3]) -> bool {
         let first = brick.map(|b| b * EDGE);
-        let extent = std::array::from_fn(|axis| (EDGE + 1).min(self.grid.size[axis] - first[axis]));
+        let extent = self.extent(first);
         if self.cut.is_some_and(|cut| cut.left(first, extent) == Left::Nothing) {
             return false;
         }
-        let mut all = Range { low: f32::INFINITY, high: f32::NEG_INFINITY, spread: 0.0 };
+        let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
         for corner in 0..8_usize {
             let next = std::array::from_fn(|axis| {
                 (brick[axis] + (corner >> axis & 1)).min(counts[axis] - 1)
             });
-            let Range { low, high, .. } = self.ranges.around(next);
-            (all.low, all.high) = (all.low.min(low), all.high.max(high));
+            let range = self.ranges.around(next);
+            (low, high) = (low.min(range.low), high.max(range.high));
         }
-        self.shows(gradients, all, [all.low, all.high], (first, extent))
+        let value = [[low], [high]];
+        self.shows(&self.bounds(gradients, first), &value, &value) == [1]
     }
 
-    /// Whether something may be seen whose value is made of voxels in `value`, and its gradient of such in `slopes`.
-    fn shows(
-        &self,
-        gradients: &Gradients,
-        value: Range,
-        slopes: [f32; 2],
-        (first, extent): ([usize; 3], [usize; 3]),
-    ) -> bool {
-        let Range { low, high, .. } = value;
-        if low > high {
-            return false;
-        }
+    /// Voxels of a brick of cells, and those that its last cells share with the next.
+    fn extent(&self, first: [usize; 3]) -> [usize; 3] {
+        std::array::from_fn(|axis| (EDGE + 1).min(self.grid.size[axis] - first[axis]))
+    }
+
+    fn bounds(&self, gradients: &Gradients, first: [usize; 3]) -> Bounds {
+        let extent = self.extent(first);
         let border = (0..3).any(|a| first[a] == 0 || first[a] + extent[a] >= self.grid.size[a]);
         // A cubic that leaves the range of its voxels does so from where a straight line continues them, too.
         let (wider, steeper) = match overshoot(self.filter) {
@@ -104,15 +100,38 @@ impl Seen<'_> {
             most if border => (1.0 + 1.5 * (most - 1.0), 3.0),
             most => (0.5 * (most - 1.0), 1.0),
         };
+        let steeper = steepness(self.filter) * steeper;
+        Bounds { wider, steeper, steepest: gradients.at_most_per(first, extent) }
+    }
+
+    /// Whether something may be seen whose value is made of voxels between two, and its gradient of such between two others:
+    /// 1, else 0.
+    #[inline]
+    fn shows<const N: usize>(
+        &self,
+        bounds: &Bounds,
+        [least, most]: &[[f32; N]; 2],
+        [lowest, highest]: &[[f32; N]; 2],
+    ) -> [u64; N] {
         let apart = |low: f32, high: f32| {
             let apart = high - low;
             if apart.is_nan() { f32::INFINITY } else { apart }
         };
-        let slack = wider * apart(low, high) + ROUNDING * low.abs().max(high.abs());
-        let spread = apart(slopes[0], slopes[1]) * steepness(self.filter) * steeper;
-        let rounding = ROUNDING * slopes[0].abs().max(slopes[1].abs());
-        let range = Range { low: low - slack, high: high + slack, spread };
-        self.classifier.may_show(range, gradients.at_most(spread + rounding, first, extent))
+        let greatest = |low: f32, high: f32| more(low.abs(), high.abs());
+        let (mut low, mut high, mut steepest) = ([0.0; N], [0.0; N], [0.0; N]);
+        for n in 0..N {
+            let slack = bounds.wider * apart(least[n], most[n]);
+            let slack = slack + ROUNDING * greatest(least[n], most[n]);
+            (low[n], high[n]) = (least[n] - slack, most[n] + slack);
+            let spread = apart(lowest[n], highest[n]) * bounds.steeper;
+            let spread = spread + ROUNDING * greatest(lowest[n], highest[n]);
+            steepest[n] = bounds.steepest.of(spread);
+        }
+        let mut shown = self.classifier.show(&low, &high, &steepest);
+        for n in 0..N {
+            shown[n] &= u64::from(least[n] <= most[n]);
+        }
+        shown
     }
 
     /// The cells of a brick that may be seen: bit `8 y + x` of word `z`.
@@ -126,32 +145,38 @@ impl Seen<'_> {
         let slopes = self.classifier.is_of_gradient();
         let linear = self.filter == Filter::Linear;
         let around = Around::of(values, (self.grid.size, first), linear, slopes);
+        let bounds = self.bounds(gradients, first);
         let [ex, ey, ez]: [usize; 3] =
             std::array::from_fn(|axis| EDGE.min(self.grid.size[axis] - first[axis]));
-        let shows = |[x, y, z]: [usize; 3], extent: [usize; 3]| {
-            let (value, slopes) = around.extremes([x, y, z], extent);
-            let range = Range { low: value[0], high: value[1], spread: 0.0 };
-            let first = [first[0] + x, first[1] + y, first[2] + z];
-            self.shows(gradients, range, slopes, (first, extent.map(|n| n + 1)))
-        };
         let mut words = [0; EDGE];
-        // Whole slices and rows first, of which most are far from what is seen.
-        for z in (0..ez).filter(|&z| shows([0, 0, z], [ex, ey, 1])) {
-            for y in (0..ey).filter(|&y| shows([0, y, z], [ex, 1, 1])) {
-                for x in (0..ex).filter(|&x| shows([x, y, z], [1; 3])) {
-                    words[z] |= 1 << (EDGE * y + x);
-                }
+        for (z, word) in words.iter_mut().enumerate().take(ez) {
+            for y in 0..ey {
+                let (value, slopes) = around.row(y, z);
+                let shown = self.shows(&bounds, &value, &slopes);
+                let row = shown.iter().rev().fold(0, |bits, shown| bits << 1 | shown);
+                *word |= (row & ((1 << ex) - 1)) << (EDGE * y);
             }
         }
         words
     }
 }
 
-/// The extremes of the voxels that each cell of a brick is made of.
+/// What the filter may make of the voxels of a brick.
+struct Bounds {
+    /// How far values may leave the range of theirs, of its width.
+    wider: f32,
+    /// How much steeper than a central difference a slope may be.
+    steeper: f32,
+    /// From how far voxels are apart to the longest gradient.
+    steepest: Steepest,
+}
+
+/// The extremes of the voxels that each cell of a brick is made of: the least, and the most.
 struct Around {
-    /// For values: the least, and the most.
     values: [Block; 2],
-    /// For slopes; those for values where there is nothing else.
+    /// Where the values of a block's first cell are.
+    first: [usize; 2],
+    /// For slopes, where they are made of more than values are.
     slopes: Option<[Block; 2]>,
 }
 
@@ -162,36 +187,36 @@ impl Around {
         linear: bool,
         slopes: bool,
     ) -> Self {
-        let [least, most] = blocks(values, size, first);
-        let (low, high) = (halved(&least, less, 1), halved(&most, more, 1));
-        let far = || [halved(&low, less, 2), halved(&high, more, 2)];
-        // The voxels of a linear cell begin one behind those that its slopes need.
-        let own = |block: Block| {
-            let mut moved = block;
-            for at in 0..REACH * REACH - REACH - 1 {
-                moved[at][..REACH].copy_from_slice(&block[at + REACH + 1][1..=REACH]);
-            }
-            moved
-        };
-        if linear {
-            Self { values: [own(low), own(high)], slopes: slopes.then(far) }
-        } else {
-            Self { values: far(), slopes: None }
+        let [mut low, mut high] = blocks(values, size, first);
+        halve(&mut low, less, 1);
+        halve(&mut high, more, 1);
+        if !linear {
+            halve(&mut low, less, 2);
+            halve(&mut high, more, 2);
+            return Self { values: [low, high], first: [0; 2], slopes: None };
         }
+        // The voxels of a linear cell begin one behind those that its slopes need.
+        let first = [REACH + 1, 1];
+        let values = [low, high];
+        if slopes {
+            halve(&mut low, less, 2);
+            halve(&mut high, more, 2);
+        }
+        Self { values, first, slopes: slopes.then_some([low, high]) }
     }
 
-    /// Those of some cells together: of their values, and of their slopes.
-    fn extremes(&self, [x, y, z]: [usize; 3], [nx, ny, nz]: [usize; 3]) -> ([f32; 2], [f32; 2]) {
-        let of = |[least, most]: &[Block; 2]| {
-            let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
-            for at in (z..z + nz).flat_map(|z| (y..y + ny).map(move |y| z * REACH + y)) {
-                low = least[at][x..x + nx].iter().fold(low, |a, b| less(a, *b));
-                high = most[at][x..x + nx].iter().fold(high, |a, b| more(a, *b));
-            }
-            [low, high]
+    /// Those of a row of cells: of their values, and of their slopes.
+    #[inline]
+    fn row(&self, y: usize, z: usize) -> ([[f32; EDGE]; 2], [[f32; EDGE]; 2]) {
+        let at = z * REACH + y;
+        let of = |block: &Block, [row, x]: [usize; 2]| {
+            let mut made = [0.0; EDGE];
+            made.copy_from_slice(&block[at + row][x..x + EDGE]);
+            made
         };
-        let values = of(&self.values);
-        (values, self.slopes.as_ref().map_or(values, of))
+        let values = [0, 1].map(|end| of(&self.values[end], self.first));
+        let far = |blocks: &[Block; 2]| [of(&blocks[0], [0; 2]), of(&blocks[1], [0; 2])];
+        (values, self.slopes.as_ref().map_or(values, far))
     }
 }
 
@@ -230,20 +255,18 @@ fn blocks<T: Scalar>(values: &[T], size: [usize; 3], first: [usize; 3]) -> [Bloc
     [least, most]
 }
 
-/// The better of each voxel and that `step` behind it, along every axis; at the block's end it means nothing.
+/// Makes each voxel the better of it and that `step` behind it, along every axis; at the block's end it means nothing.
 #[inline]
-fn halved(block: &Block, better: impl Fn(f32, f32) -> f32, step: usize) -> Block {
-    let mut made = *block;
-    for row in &mut made {
+fn halve(block: &mut Block, better: impl Fn(f32, f32) -> f32, step: usize) {
+    for row in block.iter_mut() {
         for x in 0..WIDTH - step {
             row[x] = better(row[x], row[x + step]);
         }
     }
     for step in [step, step * REACH] {
         for at in 0..REACH * REACH - step {
-            let behind = made[at + step];
-            made[at].iter_mut().zip(behind).for_each(|(own, behind)| *own = better(*own, behind));
+            let behind = block[at + step];
+            block[at].iter_mut().zip(behind).for_each(|(own, behind)| *own = better(*own, behind));
         }
     }
-    made
 }

@@ -96,18 +96,23 @@ impl Contours {
         })
     }
 
-    /// Whether a contour may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
-    pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
-        self.0.iter().any(|line| {
-            let above = match line.form {
-                Form::Above => 0.0,
-                Form::Around => low - line.value,
-            };
-            let away = above.max(line.value - high).max(0.0);
-            let reach = line.squared_reach * steepest * steepest;
-            let below = line.form == Form::Around && away * away < reach;
-            line.opacity > 0.0 && (away == 0.0 || below)
-        })
+    /// Whether a contour may be seen at scalars from `low` to `high` and gradients no longer than `steepest`: 1, else 0.
+    #[inline]
+    pub fn show<const N: usize>(
+        &self,
+        [low, high, steepest]: [&[f64; N]; 3],
+        shown: &mut [u64; N],
+    ) {
+        for line in self.0.iter().filter(|line| line.opacity > 0.0) {
+            let is_around = u64::from(line.form == Form::Around);
+            for n in 0..N {
+                let above = if is_around == 1 { low[n] - line.value } else { 0.0 };
+                let away = above.max(line.value - high[n]).max(0.0);
+                let reach = line.squared_reach * steepest[n] * steepest[n];
+                let below = is_around & u64::from(away * away < reach);
+                shown[n] |= u64::from(away == 0.0) | below;
+            }
+        }
     }
 
     /// The mean of the contours' colours, each weighted by its opacity; `None` where there is none.

@@ -42,14 +42,21 @@ impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Curve<V> {
 }
 
 impl Curve<f64> {
-    /// Whether the value is above 0 somewhere from `low` to `high`, for a curve that is nowhere below 0.
-    pub fn rises(&self, low: f64, high: f64) -> bool {
-        let within = |at: f64| low <= at && at <= high;
-        let above = |value: Option<f64>| value.is_some_and(|value| value > 0.0);
-        // It is straight between points: where it is 0 at both ends and at every point between them, it is 0.
-        above(self.value(low))
-            || above(self.value(high))
-            || self.0.iter().any(|(at, value)| within(*at) && *value > 0.0)
+    /// Where the value is above 0, for a curve that is nowhere below 0.
+    pub fn risen(&self) -> Risen {
+        // It is straight between points: an end where it is 0 does not belong to the piece beside it.
+        let from = |(at, value): (f64, f64)| if value > 0.0 { at } else { at.next_up() };
+        let to = |(at, value): (f64, f64)| if value > 0.0 { at } else { at.next_down() };
+        let mut risen = Risen(Vec::new());
+        if let (Some(first), Some(last)) = (self.0.first(), self.0.last()) {
+            let before = (f64::NEG_INFINITY, first.1);
+            let behind = (f64::INFINITY, last.1);
+            let points = [&[before], &self.0[..], &[behind]].concat();
+            for piece in points.windows(2).filter(|piece| piece[0].1 > 0.0 || piece[1].1 > 0.0) {
+                risen.add([from(piece[0]), to(piece[1])]);
+            }
+        }
+        risen
     }
 
     /// The interval outside of which the value is surely 0; from ∞ to −∞ if it is 0 everywhere.
@@ -61,6 +68,37 @@ impl Curve<f64> {
         };
         let low = if first == 0 { f64::NEG_INFINITY } else { self.0[first - 1].0 };
         [low, self.0.get(last + 1).map_or(f64::INFINITY, |point| point.0)]
+    }
+}
+
+/// Where a curve is above 0: intervals in rising order, both ends among them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Risen(Vec<[f64; 2]>);
+
+impl Risen {
+    /// Adds an interval behind all others; it may touch the last.
+    fn add(&mut self, [low, high]: [f64; 2]) {
+        match self.0.last_mut() {
+            _ if low > high => {}
+            Some(last) if last[1] >= low => last[1] = last[1].max(high),
+            _ => self.0.push([low, high]),
+        }
+    }
+
+    /// Of some ranges, from `low` to `high` each, adds 1 to `shown` where one meets an interval and it is 0.
+    #[inline]
+    pub fn show<const N: usize>(&self, low: &[f64; N], high: &[f64; N], shown: &mut [u64; N]) {
+        for [from, to] in &self.0 {
+            for n in 0..N {
+                shown[n] |= u64::from(low[n] <= *to) & u64::from(high[n] >= *from);
+            }
+        }
+    }
+
+    /// The least place from `low` on; ∞ if there is none.
+    pub fn least(&self, low: f64) -> f64 {
+        let behind = self.0.iter().find(|[_, to]| *to >= low);
+        behind.map_or(f64::INFINITY, |[from, _]| from.max(low))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::curve::Curve;
+use super::curve::{Curve, Risen};
 use super::numbers::{opacity_in_range, weighted_mean};
 use crate::components::{Color, MixtureMaterial};
 
@@ -13,6 +13,8 @@ pub struct Mixture(Vec<Part>);
 #[derive(Debug, Clone, PartialEq)]
 struct Part {
     probability: Curve<f64>,
+    /// Where it is probable and not clear.
+    risen: Risen,
     opacity: f64,
     color: DVec3,
 }
@@ -20,12 +22,13 @@ struct Part {
 impl Mixture {
     /// A mixture of materials; those without a colour of their own take `color`.
     pub fn new(stated: &[MixtureMaterial], color: DVec3) -> Self {
-        let part = |material: &MixtureMaterial| Part {
-            probability: Curve::new(
-                material.probability.iter().map(|[value, p]| (*value, opacity_in_range(*p))),
-            ),
-            opacity: opacity_in_range(material.opacity),
-            color: material.color.map_or(color, |Color(own)| own.as_dvec3()),
+        let part = |material: &MixtureMaterial| {
+            let points = material.probability.iter();
+            let probability = Curve::new(points.map(|[value, p]| (*value, opacity_in_range(*p))));
+            let opacity = opacity_in_range(material.opacity);
+            let seen = if opacity > 0.0 { probability.clone() } else { Curve::new([]) };
+            let color = material.color.map_or(color, |Color(own)| own.as_dvec3());
+            Part { risen: seen.risen(), probability, opacity, color }
         };
         Self(stated.iter().map(part).collect())
     }
@@ -48,9 +51,10 @@ impl Mixture {
         weighted_mean(self.probabilities(f).map(|(p, part)| (p * part.opacity, part.color)))
     }
 
-    /// Whether a material may be seen at scalars from `low` to `high`.
-    pub fn may_show(&self, low: f64, high: f64) -> bool {
-        self.0.iter().any(|part| part.opacity > 0.0 && part.probability.rises(low, high))
+    /// Whether a material may be seen at scalars from `low` to `high`: 1, else 0.
+    #[inline]
+    pub fn show<const N: usize>(&self, [low, high]: [&[f64; N]; 2], shown: &mut [u64; N]) {
+        self.0.iter().for_each(|part| part.risen.show(low, high, shown));
     }
 
     /// The values outside of which the opacity is surely 0.

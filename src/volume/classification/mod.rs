@@ -89,15 +89,31 @@ impl Classifier {
     /// than `steepest`, world units. Where this is denied, [`Classifier::opacity`] is 0.
     #[must_use]
     pub fn may_show(&self, range: Range, steepest: f64) -> bool {
-        let low = f64::from(range.low).max(self.range[0]);
-        let high = f64::from(range.high).min(self.range[1]);
-        low <= high
-            && match &self.how {
-                How::Contours(contours) => contours.may_show(low, high, steepest),
-                How::Regions(regions) => regions.may_show(low, high, steepest),
-                How::Transfer(transfer) => transfer.may_show(low, high, steepest),
-                How::Mixture(mixture) => mixture.may_show(low, high),
-            }
+        self.show(&[range.low], &[range.high], &[steepest]) == [1]
+    }
+
+    /// [`may_show`](Self::may_show) of several ranges at once, from `low` to `high` each: 1 for those, else 0.
+    #[must_use]
+    #[inline]
+    pub(crate) fn show<const N: usize>(
+        &self,
+        low: &[f32; N],
+        high: &[f32; N],
+        steepest: &[f64; N],
+    ) -> [u64; N] {
+        let low = low.map(|low| f64::from(low).max(self.range[0]));
+        let high = high.map(|high| f64::from(high).min(self.range[1]));
+        let mut shown = [0; N];
+        match &self.how {
+            How::Contours(contours) => contours.show([&low, &high, steepest], &mut shown),
+            How::Regions(regions) => regions.show([&low, &high, steepest], &mut shown),
+            How::Transfer(transfer) => transfer.show([&low, &high, steepest], &mut shown),
+            How::Mixture(mixture) => mixture.show([&low, &high], &mut shown),
+        }
+        for n in 0..N {
+            shown[n] &= u64::from(low[n] <= high[n]);
+        }
+        shown
     }
 
     /// The contours that have no thickness: no opacity is of them, they are met where values cross theirs.

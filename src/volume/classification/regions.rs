@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::curve::Curve;
+use super::curve::{Curve, Risen};
 use super::numbers::{opacity_in_range, square};
 use crate::components::{Color, Tissue};
 
@@ -10,6 +10,7 @@ use crate::components::{Color, Tissue};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regions {
     opacity: Curve<f64>,
+    risen: Risen,
     /// Colour times opacity, so that a clear tissue lends no colour to its neighbour.
     associated: Curve<DVec3>,
     color: Curve<DVec3>,
@@ -22,8 +23,10 @@ impl Regions {
     pub fn new(stated: &[Tissue], color: DVec3, unit: f64) -> Self {
         let colors = stated.iter().map(|t| t.color.map_or(color, |Color(own)| own.as_dvec3()));
         let points = || stated.iter().map(|t| (t.value, opacity_in_range(t.opacity)));
+        let opacity = Curve::new(points());
         Self {
-            opacity: Curve::new(points()),
+            risen: opacity.risen(),
+            opacity,
             associated: Curve::new(
                 points().zip(colors.clone()).map(|((value, alpha), color)| (value, color * alpha)),
             ),
@@ -52,11 +55,17 @@ impl Regions {
         if contrast > 0.0 { alpha * (gg.sqrt() * self.unit / contrast).min(1.0) } else { 0.0 }
     }
 
-    /// Whether a boundary may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
-    pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
-        let ends = self.range();
-        let (low, high) = (low.max(ends[0]), high.min(ends[1]));
-        steepest > 0.0 && low <= high && self.opacity.rises(low, high)
+    /// Whether a boundary may be seen at scalars from `low` to `high` and gradients no longer than `steepest`: 1, else 0.
+    #[inline]
+    pub fn show<const N: usize>(
+        &self,
+        [low, high, steepest]: [&[f64; N]; 3],
+        shown: &mut [u64; N],
+    ) {
+        self.risen.show(low, high, shown);
+        for n in 0..N {
+            shown[n] &= u64::from(steepest[n] > 0.0);
+        }
     }
 
     /// The two tissues' colours, weighted by what each gives to the opacity.

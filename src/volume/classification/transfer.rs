@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::curve::Curve;
+use super::curve::{Curve, Risen};
 use super::numbers::{opacity_in_range, square};
 use crate::components::{Color, TransferPoint};
 
@@ -10,9 +10,12 @@ use crate::components::{Color, TransferPoint};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Transfer {
     opacity: Curve<f64>,
+    risen: Risen,
     color: Curve<DVec3>,
     /// A factor of the gradient magnitude.
     factor: Option<Curve<f64>>,
+    /// The least magnitude at which that is above 0.
+    factor_from: f64,
 }
 
 impl Transfer {
@@ -21,10 +24,14 @@ impl Transfer {
         let own = |p: &TransferPoint| p.color.map_or(color, |Color(own)| own.as_dvec3());
         let factor =
             Curve::new(factors.iter().map(|[magnitude, factor]| (*magnitude, f64::from(*factor))));
+        let opacity = Curve::new(stated.iter().map(|p| (p.value, opacity_in_range(p.opacity))));
+        let factor = factor.ends().map(|_| factor);
         Self {
-            opacity: Curve::new(stated.iter().map(|p| (p.value, opacity_in_range(p.opacity)))),
+            risen: opacity.risen(),
+            opacity,
+            factor_from: factor.as_ref().map_or(0.0, |factor| factor.risen().least(0.0)),
             color: Curve::new(stated.iter().map(|p| (p.value, own(p)))),
-            factor: factor.ends().map(|_| factor),
+            factor,
         }
     }
 
@@ -40,10 +47,17 @@ impl Transfer {
         }
     }
 
-    /// Whether anything may be seen at scalars from `low` to `high` and gradients no longer than `steepest`.
-    pub fn may_show(&self, low: f64, high: f64, steepest: f64) -> bool {
-        self.opacity.rises(low, high)
-            && self.factor.as_ref().is_none_or(|factor| factor.rises(0.0, steepest))
+    /// Whether anything may be seen at scalars from `low` to `high` and gradients no longer than `steepest`: 1, else 0.
+    #[inline]
+    pub fn show<const N: usize>(
+        &self,
+        [low, high, steepest]: [&[f64; N]; 3],
+        shown: &mut [u64; N],
+    ) {
+        self.risen.show(low, high, shown);
+        for n in 0..N {
+            shown[n] &= u64::from(steepest[n] >= self.factor_from);
+        }
     }
 
     /// Whether the opacity depends on the gradient.
