@@ -137,7 +137,9 @@
 //!   reconstructed by the view's `filter` and classified and shaded where they are sampled, by gradients of the same filter,
 //!   so that a picture which magnifies voxels stays sharp. A clip is then cut exactly, within the slab that it crosses.
 //!   Shadows are approximate in one thing: the sweep reads the opacities of voxels, classified alike, and interpolates those.
-//!   Colors stay the default, and the paper's figures keep them.
+//!   Colors stay the default, by measurement (`benches/sharp.rs`): values are nearer to the truth by 1.6 to 1.9 dB, are edited
+//!   sooner, and of opaque surfaces cost half again as much a frame; but of gel that rays go through, under three lights with
+//!   shadows, a frame takes ten times as long. The paper's figures keep colors in any case.
 //! - **A contour of thickness 0 is a surface** of values: where a ray crosses it is found within the slab, so that it is as
 //!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before or behind all of it.
 //! - **A cut is shaded by its plane**, turned to the surface's own normal over a voxel under it: gradients inside the volume
