@@ -67,9 +67,7 @@ impl Renderer {
     /// components are put on its entities, and a head light and an observer are spawned where there is none. The error is
     /// the first thing that cannot be rendered, or that the [`watch`](Self::watch) was told to stop. Interrupted or failed, the world keeps what was made until then, and can be rendered again.
     pub fn render(&self, world: &mut World) -> Result<Rendered, Error> {
-        check_world(world)?;
-        let notices = resolve(world).map_err(|fault| fault.within(world))?;
-        let notices = notices.iter().map(|notice| notice.within(world)).collect();
+        let notices = Self::resolved(world)?;
         let ran = self.schedule.run(world, &self.watch)?;
         self.watch.check()?;
         let missing = || Error::Schedule("no system made a picture of the view".to_owned());
@@ -83,5 +81,13 @@ impl Renderer {
             notices,
             ran,
         })
+    }
+
+    /// Checks a world and fills in what it leaves out; the notices.
+    fn resolved(world: &mut World) -> Result<Vec<String>, Error> {
+        let _span = tracing::info_span!("resolve").entered();
+        check_world(world)?;
+        let notices = resolve(world).map_err(|fault| fault.within(world))?;
+        Ok(notices.iter().map(|notice| notice.within(world)).collect())
     }
 }

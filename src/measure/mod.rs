@@ -5,10 +5,14 @@ pub mod cost;
 pub mod cost_table;
 pub mod error;
 pub mod front;
+pub mod held;
 pub mod histogram;
 mod isovalues;
 pub mod kind;
 pub mod paired;
 pub mod sigma;
+#[cfg(feature = "cli")]
+pub mod spans;
 mod ssim;
 pub mod stopwatch;
+pub mod variants;
