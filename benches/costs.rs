@@ -9,13 +9,12 @@
 mod timed;
 mod way;
 
-use gelray::components::{CastsShadow, Sampling};
-use gelray::measure::cost::{FRAME, paper_costs};
-use gelray::polygon::texture::TexturedBy;
+use gelray::components::Sampling;
+use gelray::measure::cost::{COLORS, FRAME, paper_costs};
+use gelray::measure::variants;
 use gelray::scene::{EMBEDDED, Source};
 use gelray::schedule::Ran;
-use hecs::Entity;
-use timed::{Setting, Spread, is_quick, on_threads};
+use timed::{Spread, is_quick, on_threads};
 use way::{Way, compare, open};
 
 const THREADS: usize = 2;
@@ -73,12 +72,13 @@ fn scene(name: &str) -> Option<Source> {
     found.then(|| Source::embedded(name).ok()).flatten()
 }
 
-/// Figure 6a without its planes.
-fn volume_alone() -> Source {
+/// Figure 6a without its planes, cast in some way.
+fn alone(name: &'static str, sampling: impl Fn(&mut Sampling)) -> Way {
     let whole = Source::embedded("figure_06a").expect("figure 6a is embedded");
-    let entities = whole.text.split("[[entity]]").skip(1);
-    let kept: Vec<_> = entities.filter(|entity| !entity.contains("polygon =")).collect();
-    Source::inline("volume_alone", format!("[[entity]]{}", kept.join("[[entity]]")))
+    let mut way = Way::new(name, &whole, sampling);
+    variants::take_polygons(&mut way.setting.world);
+    way.setting.run();
+    way
 }
 
 fn seconds(ran: &[Ran], wanted: impl Fn(&str) -> bool) -> f64 {
@@ -125,10 +125,10 @@ fn exact(sampling: &mut Sampling) {
 
 /// What a frame of a rotation takes, with polygons and without, in each way of casting.
 fn frames(floors: &mut Vec<Floor>) {
-    let (alone, mixed) = (volume_alone(), Source::embedded("figure_06a").expect("embedded"));
+    let mixed = Source::embedded("figure_06a").expect("embedded");
     let mut ways = [
-        Way::new("volume alone, adaptive", &alone, |_| ()),
-        Way::new("volume alone, a ray a pixel", &alone, a_ray_a_pixel),
+        alone("volume alone, adaptive", |_| ()),
+        alone("volume alone, a ray a pixel", a_ray_a_pixel),
         Way::new("three polygons, adaptive", &mixed, |_| ()),
         Way::new("three polygons, a ray a pixel", &mixed, a_ray_a_pixel),
         Way::new("three polygons, adaptive, samples 0.5 mm apart", &mixed, half_a_voxel),
@@ -140,8 +140,8 @@ fn frames(floors: &mut Vec<Floor>) {
             way.view(azimuth, repeat);
         }
     }
-    let mut brute = Way::new("volume alone, exact: brute force", &alone, exact);
-    let mut beside = Way::new("volume alone, adaptive, beside it", &alone, |_| ());
+    let mut brute = alone("volume alone, exact: brute force", exact);
+    let mut beside = alone("volume alone, adaptive, beside it", |_| ());
     for view in 0..if is_quick() { 1 } else { 3 } {
         brute.view(f64::from(view) * 120.0 + 5.0, 1);
         beside.view(f64::from(view) * 120.0 + 5.0, repeat);
@@ -199,26 +199,15 @@ fn scan_conversion() {
     compare(&mut ways, "to traced (paper: 70 / 80)");
 }
 
-fn take_off<C: hecs::Component>(setting: &mut Setting) {
-    let mut query = setting.world.query::<Entity>().with::<&C>();
-    let carriers: Vec<_> = query.iter().collect();
-    drop(query);
-    for entity in carriers {
-        let _ = setting.world.remove_one::<C>(entity);
-    }
-}
-
 /// Figure 9: what shadows add to the total voxel colours c_T, and that they add nothing to a frame.
 fn shadows() {
     let Some(source) = scene("figure_09") else { return };
     let total = |shadows: bool| {
         let mut setting = open(&source);
         if !shadows {
-            take_off::<CastsShadow>(&mut setting);
+            variants::take_shadows(&mut setting.world);
         }
-        let colors =
-            ["ranges", "classify", "shade", "scan_convert", "matte", "light_sweep", "relight"];
-        seconds(&setting.run().0, |stage| colors.contains(&stage))
+        seconds(&setting.run().0, |stage| COLORS.contains(&stage))
     };
     let repeat = if is_quick() { 2 } else { 5 };
     let pairs: Vec<_> = (0..repeat).map(|_| [total(true), total(false)]).collect();
@@ -232,7 +221,7 @@ fn shadows() {
         Way::new("a frame, with shadows", &source, |_| ()),
         Way::new("a frame, without", &source, |_| ()),
     ];
-    take_off::<CastsShadow>(&mut ways[1].setting);
+    variants::take_shadows(&mut ways[1].setting.world);
     ways[1].setting.run();
     compare(&mut ways, "to without (paper: 1)");
 }
@@ -245,7 +234,7 @@ fn textures() {
         Way::new("a frame, with textures", &source, |_| ()),
         Way::new("a frame, without", &source, |_| ()),
     ];
-    take_off::<TexturedBy>(&mut ways[1].setting);
+    variants::take_textures(&mut ways[1].setting.world);
     ways[1].setting.run();
     compare(&mut ways, "to without (paper: about 1.5)");
 }

@@ -40,7 +40,7 @@
 //!   those of the last run, and makes it else. So a turn of the view casts rays and does nothing else, and a scene without
 //!   a shadow has no light buffer, in time or memory. `gelray plan` prints what would run, and why, before it does.
 //! - **Measured.** The schedule opens a span around every system; [`cost_table`](measure::cost_table) (feature `cli`) sums them to
-//!   the cost table of §7. Counts of rays and samples are facts about a picture and live in the product [`Samples`](view::samples::Samples).
+//!   the cost table of §7, which `gelray profile` prints. Counts of rays and samples are facts about a picture and live in the product [`Samples`](view::samples::Samples).
 //!
 //! # The rooms
 //!

@@ -18,12 +18,16 @@ mod limits;
 mod misuse;
 #[path = "program/planned.rs"]
 mod planned;
+#[path = "program/profile.rs"]
+mod profile;
 #[path = "program/progressive.rs"]
 mod progressive;
 #[path = "../benches/fuzz/random.rs"]
 mod random;
 #[path = "program/render.rs"]
 mod render;
+#[path = "program/report.rs"]
+mod report;
 #[path = "../benches/fuzz/scenes.rs"]
 mod scenes;
 #[path = "program/sentences.rs"]

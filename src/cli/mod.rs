@@ -18,6 +18,7 @@ mod failure;
 mod flags;
 mod frame_progress;
 mod goal;
+mod html;
 mod info;
 mod info_picture;
 mod interrupt;
@@ -29,22 +30,36 @@ mod noted;
 mod number;
 mod outputs;
 mod plan;
+mod plot;
+mod profile;
+mod profile_numbers;
+mod profile_pair;
+mod profile_run;
+mod profile_saved;
+mod profile_table;
 mod progress;
 mod progressive;
 mod raw_header;
 mod render;
+mod report;
+mod report_figures;
+mod report_page;
+mod report_parts;
 mod results;
 mod same_file;
 mod scenes;
 mod schema;
 mod sentence;
 mod stats;
+mod steps;
 mod table;
 mod target;
 mod trace;
 mod trade;
+mod trade_others;
 mod trade_page;
 mod trade_points;
+mod trade_run;
 mod trade_scene;
 mod verb_first;
 
@@ -65,6 +80,7 @@ Examples:
   gelray render -o big.png --size 1520x1520 --set observer.view.azimuth=60
   gelray animate -o turn.gif                         a full turn
   gelray plan scene.toml                             what would run, and how many bytes it takes
+  gelray profile figure_06a                          what each stage takes, beside the paper's seconds
   gelray trade scene.toml -o trade --target psnr=45  what each knob costs and buys, and the fastest that keeps 45 dB
   gelray compare fast.png exact.png -o where.png     how far two images are apart, and where
 
@@ -109,6 +125,14 @@ enum Verb {
         #[arg(long, value_name = "RATE", value_parser = gelray::formats::moving::Rate::parse)]
         fps: Option<gelray::formats::moving::Rate>,
     },
+    /// Measures what each stage takes, beside the paper's table; or two scenes or saved profiles, and whether they differ
+    #[command(after_help = profile::EXAMPLES)]
+    Profile {
+        /// A scene file, the name of an embedded scene, a volume, or a saved profile [default: head]
+        scene: Option<OsString>,
+        #[command(flatten)]
+        profiling: profile::Profiling,
+    },
     /// Measures what each knob of accuracy costs and buys; picks the settings that keep a target
     #[command(after_help = trade::EXAMPLES)]
     Trade {
@@ -116,6 +140,12 @@ enum Verb {
         scene: Option<OsString>,
         #[command(flatten)]
         trading: trade::Trading,
+    },
+    /// Writes the paper's figures, tables and the trade as one page that needs no network
+    #[command(after_help = report::EXAMPLES)]
+    Report {
+        #[command(flatten)]
+        reporting: report::Reporting,
     },
     /// Tells which systems would run, which not and why, and how many bytes they take
     Plan {
@@ -151,11 +181,13 @@ enum Verb {
 }
 
 /// The flags that each verb has a use for, beside those of all: what its help lists.
-const TAKES: [(&str, &[&str]); 10] = [
+const TAKES: [(&str, &[&str]); 12] = [
     ("render", render::TAKES),
     ("animate", animate::TAKES),
     ("assemble", assemble::TAKES),
+    ("profile", profile::TAKES),
     ("trade", trade::TAKES),
+    ("report", report::TAKES),
     ("plan", plan::TAKES),
     ("compare", compare::TAKES),
     ("info", info::TAKES),
@@ -208,7 +240,9 @@ fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
         Verb::Render { scene, progressive } => render::run(scene.as_deref(), &progressive, flags),
         Verb::Animate { scene, motion } => animate::run(scene.as_deref(), &motion, flags),
         Verb::Assemble { frames, fps } => assemble::run(&frames, fps, flags),
+        Verb::Profile { scene, profiling } => profile::run(scene.as_deref(), &profiling, flags),
         Verb::Trade { scene, trading } => trade::run(scene.as_deref(), &trading, flags),
+        Verb::Report { reporting } => report::run(&reporting, flags),
         Verb::Plan { scene } => plan::run(scene.as_deref(), flags),
         Verb::Compare { a, b } => compare::run(&a, &b, flags),
         Verb::Info { file } => info::run(&file, flags),

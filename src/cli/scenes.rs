@@ -21,7 +21,7 @@ pub fn run(name: Option<&str>, flags: &Flags) -> Result<(), Failure> {
 }
 
 /// The first lines of a scene's comment, up to one that ends a sentence.
-fn summary(text: &str) -> String {
+pub fn summary(text: &str) -> String {
     let mut comment = text.lines().map_while(|line| line.strip_prefix("# "));
     let mut summary = comment.next().unwrap_or_default().to_owned();
     while !summary.ends_with('.') {

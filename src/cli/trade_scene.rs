@@ -87,8 +87,13 @@ impl TradeScene {
         let (mut pairs, mut counts) = (Vec::new(), Counts::default());
         let mut worst: Option<Difference> = None;
         for (round, view) in turns {
-            let before = self.frame(view, &beside)?.seconds;
-            let made = self.frame(view, &sampling)?;
+            // The next choice begins with the scene's own settings: they must not be the last of this one.
+            let (before, made) = if is_base {
+                let made = self.frame(view, &sampling)?;
+                (self.frame(view, &beside)?.seconds, made)
+            } else {
+                (self.frame(view, &beside)?.seconds, self.frame(view, &sampling)?)
+            };
             pairs.push([if is_base { made.seconds } else { before }, made.seconds]);
             if round == 0 {
                 counts += made.counts;

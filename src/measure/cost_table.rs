@@ -11,6 +11,7 @@ use tracing_subscriber::Layer;
 use tracing_subscriber::layer::Context;
 use tracing_subscriber::registry::LookupSpan;
 
+use super::busy::busy_seconds;
 use super::cost::{FRAME, paper_costs};
 
 /// What all spans of one name under one parent took.
@@ -26,6 +27,8 @@ pub struct Row {
     pub made: Option<u64>,
     /// Seconds from beginning to end, summed. Spans that are open side by side, on threads, count each in full.
     pub seconds: f64,
+    /// Seconds that processors were busy with all threads of the program meanwhile; 0 where the system does not tell.
+    pub busy: f64,
 }
 
 /// Sums the seconds and counts of spans by name, `system` spans by the name of their system. Clones share the sums.
@@ -40,6 +43,7 @@ struct Sum {
     count: u64,
     made: u64,
     open: Duration,
+    busy: f64,
 }
 
 impl CostTable {
@@ -72,8 +76,8 @@ impl CostTable {
         self.with(|sums| {
             let known = sums.iter().position(|sum| sum.parent == parent && sum.name == name);
             known.unwrap_or_else(|| {
-                let (count, made, open) = (0, 0, Duration::ZERO);
-                sums.push(Sum { parent, name, is_system, count, made, open });
+                let (count, made, open, busy) = (0, 0, Duration::ZERO, 0.0);
+                sums.push(Sum { parent, name, is_system, count, made, open, busy });
                 sums.len() - 1
             })
         })
@@ -88,6 +92,7 @@ fn push_children(sums: &[Sum], parent: Option<usize>, depth: usize, rows: &mut V
             count: sum.count,
             made: sum.is_system.then_some(sum.made),
             seconds: sum.open.as_secs_f64(),
+            busy: sum.busy,
         });
         push_children(sums, Some(at), depth + 1, rows);
     }
@@ -95,9 +100,15 @@ fn push_children(sums: &[Sum], parent: Option<usize>, depth: usize, rows: &mut V
 
 struct Summing(CostTable);
 
+/// Processor time until now; the difference of two is 0 where the system does not tell.
+fn busy() -> f64 {
+    busy_seconds().unwrap_or(0.0)
+}
+
 /// What a span carries while it is open.
 struct Open {
     begun: Instant,
+    busy: f64,
     sum: usize,
     made: u64,
 }
@@ -111,7 +122,7 @@ impl<S: Subscriber + for<'a> LookupSpan<'a>> Layer<S> for Summing {
         let is_system = span.name() == "system";
         let name = fields.name.filter(|_| is_system).unwrap_or_else(|| span.name().to_owned());
         let sum = self.0.place(parent, name, is_system);
-        span.extensions_mut().insert(Open { begun: Instant::now(), sum, made: 0 });
+        span.extensions_mut().insert(Open { begun: Instant::now(), busy: busy(), sum, made: 0 });
     }
 
     fn on_record(&self, id: &Id, values: &Record<'_>, context: Context<'_, S>) {
@@ -125,15 +136,19 @@ impl<S: Subscriber + for<'a> LookupSpan<'a>> Layer<S> for Summing {
 
     fn on_close(&self, id: Id, context: Context<'_, S>) {
         let Some(span) = context.span(&id) else { return };
-        let Some(Open { begun, sum, made }) = span.extensions_mut().remove::<Open>() else {
+        let Some(Open { begun, busy: before, sum, made }) = span.extensions_mut().remove::<Open>()
+        else {
             return;
         };
+        // A thread that ended takes its time along. What asking takes is the span's own, so that no time is nobody's.
+        let busy = (busy() - before).max(0.0);
         let elapsed = begun.elapsed();
         self.0.with(|sums| {
             let sum = &mut sums[sum];
             sum.count += 1;
             sum.made += made;
             sum.open += elapsed;
+            sum.busy += busy;
         });
     }
 }

@@ -1,5 +1,6 @@
 //! What is measured: histograms of volumes, errors between pictures, the cost of stages.
 
+pub mod busy;
 pub mod cost;
 #[cfg(feature = "cli")]
 pub mod cost_table;

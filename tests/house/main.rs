@@ -3,8 +3,10 @@
 mod files;
 mod imports;
 
-use gelray::measure::cost::{FRAME, PAPER};
+use gelray::measure::cost::{COLORS, FRAME, PAPER};
+use gelray::measure::held::held;
 use gelray::systems::JOBS;
+use hecs::World;
 
 use files::{File, files};
 use imports::Imports;
@@ -114,7 +116,26 @@ fn only_the_schedule_the_program_and_what_measures_look_at_a_clock() {
 fn the_stages_of_the_paper_s_cost_table_are_systems() {
     let names: Vec<_> = JOBS.iter().map(|job| job.name).collect();
     let stages = PAPER.iter().map(|cost| cost.stage).filter(|stage| *stage != "frame");
-    for stage in FRAME.into_iter().chain(stages) {
+    for stage in FRAME.into_iter().chain(COLORS).chain(stages) {
         assert!(names.contains(&stage), "{stage} is not among {names:?}");
     }
+    for name in names {
+        assert!(held(&World::new(), name).is_some(), "what {name} makes is not counted");
+    }
+}
+
+#[test]
+fn the_readme_states_no_number_that_a_machine_would_have_to_measure() {
+    let text = include_str!("../../README.md");
+    let prose = text.split("```").step_by(2).flat_map(str::lines);
+    let units = ["ms", "dB", "MB", "MiB", "GB", "GiB", "s", "seconds", "times", "%", "percent"];
+    let measured = |line: &&str| {
+        let words: Vec<_> = line.split_whitespace().collect();
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        words.windows(2).any(|two| {
+            is_number(two[0]) && units.contains(&two[1].trim_matches(|c: char| ",.;:)".contains(c)))
+        })
+    };
+    let faults: Vec<_> = prose.filter(measured).map(str::to_owned).collect();
+    none(&faults, "what is measured is measured by `gelray report`, and not typed");
 }

@@ -1,0 +1,150 @@
+//! A profile as it is saved (`--json`) and read again: seconds of each stage in each run, counts, bytes, the paper's numbers.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use gelray::measure::cost::paper_costs;
+use serde::{Deserialize, Serialize};
+
+use super::failure::Failure;
+
+/// What whole runs of a scene took.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Profile {
+    /// The version that measured.
+    pub version: String,
+    /// The scene's name.
+    pub scene: String,
+    /// The scene after its overrides.
+    pub settings: String,
+    /// Files that were not found, in whose place something made by formula was rendered.
+    #[serde(default)]
+    pub missing: Vec<String>,
+    /// Pixels across and down.
+    pub size: [usize; 2],
+    /// Threads that computed.
+    pub threads: usize,
+    /// The most memory that the program took until then, other runs included; absent where the system does not tell.
+    pub peak_bytes: Option<u64>,
+    /// All stages, in the order in which they ran; they follow each other and make up the run.
+    pub stages: Vec<Stage>,
+    /// Casting and resampling: a frame of a turn.
+    pub frame: Stage,
+    /// The whole run, from the scene's file to the bytes of the picture's.
+    pub run: Stage,
+    /// The paper's numbers beside ours.
+    pub numbers: Vec<Number>,
+}
+
+/// What a stage took.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Stage {
+    /// The span's name.
+    pub name: String,
+    /// Products that it made in a run.
+    pub made: u64,
+    /// Seconds of each run, in their order.
+    pub seconds: Vec<f64>,
+    /// Seconds of each run that processors were busy with it, all threads together; 0 where the system does not tell.
+    pub busy: Vec<f64>,
+    /// The middle one of `seconds`.
+    pub median: f64,
+    /// The least.
+    pub least: f64,
+    /// The most.
+    pub most: f64,
+    /// Part of the run, by medians.
+    pub share: f64,
+    /// What its products count.
+    pub counts: BTreeMap<String, u64>,
+    /// Bytes of its products.
+    pub bytes: u64,
+    /// Seconds on a Sun 4/280, where the paper states them.
+    pub paper_seconds: Option<f64>,
+    /// Of what.
+    pub paper_what: Option<String>,
+}
+
+/// A number of the paper, and ours.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Number {
+    /// A word for it.
+    pub key: String,
+    /// What it is of.
+    pub what: String,
+    /// The paper's, in words: `about 1.6`.
+    pub paper: String,
+    /// Ours, if the scene has what it takes.
+    pub ours: Option<f64>,
+    /// Between which bounds ours lies in 19 of 20 cases, where that was measured.
+    pub within: Option<[f64; 2]>,
+    /// Its unit, or why there is none of ours.
+    pub note: String,
+}
+
+impl Stage {
+    /// A stage by its name and products, its seconds and processor seconds, the seconds of the run, and what its products are.
+    pub fn new(
+        (name, made): (&str, u64),
+        [seconds, busy]: [Vec<f64>; 2],
+        run: f64,
+        (bytes, counts): (u64, Vec<(&str, u64)>),
+    ) -> Self {
+        let mut sorted = seconds.clone();
+        sorted.sort_by(f64::total_cmp);
+        let at = |place: usize| sorted.get(place).copied().unwrap_or(0.0);
+        let [median, least, most] =
+            [at(sorted.len() / 2), at(0), at(sorted.len().saturating_sub(1))];
+        let paper = paper_costs(name).next().filter(|_| made > 0 && name != "frame");
+        let counts = counts.into_iter().filter(|(_, count)| *count > 0);
+        Self {
+            name: name.to_owned(),
+            made,
+            seconds,
+            busy,
+            median,
+            least,
+            most,
+            share: if run > 0.0 { median / run } else { 1.0 },
+            counts: counts.map(|(what, count)| (what.to_owned(), count)).collect(),
+            bytes,
+            paper_seconds: paper.map(|paper| paper.seconds),
+            paper_what: paper.map(|paper| paper.what.to_owned()),
+        }
+    }
+
+    /// The paper's seconds of a frame of that kind stand beside this one's.
+    pub fn is_like(&mut self, what: &str) {
+        let paper = paper_costs(&self.name).find(|paper| paper.what == what);
+        self.paper_seconds = paper.map(|paper| paper.seconds);
+        self.paper_what = paper.map(|paper| paper.what.to_owned());
+    }
+}
+
+impl Profile {
+    /// The sum of all stages as a part of the run, the median of runs: 1 where spans leave nothing out.
+    pub fn accounted(&self) -> f64 {
+        let of_run = |at: usize| {
+            let sum: f64 = self.stages.iter().filter_map(|stage| stage.seconds.get(at)).sum();
+            sum / self.run.seconds[at]
+        };
+        let mut parts: Vec<f64> = (0..self.run.seconds.len()).map(of_run).collect();
+        parts.sort_by(f64::total_cmp);
+        parts.get(parts.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Reads a saved one.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let name = path.display();
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            Failure::Said(format!(
+                "{name}: cannot be read ({error}); name a file of `gelray profile --json`"
+            ))
+        })?;
+        serde_json::from_str(&text).map_err(|error| {
+            Failure::Said(format!(
+                "{name}: is no profile ({error}); write one with `gelray profile --json -o {name}`"
+            ))
+        })
+    }
+}
