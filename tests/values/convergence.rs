@@ -62,8 +62,8 @@ fn filters_approach_a_smooth_field_in_the_order_that_theory_gives_them() {
         let [coarse, fine] = [13, 25].map(|n| errors(filter, n));
         for of in 0..2 {
             let order = (coarse[of] / fine[of]).log2();
-            println!("{filter:?} {of}: {:.2e}, {:.2e}: {order:.2}", coarse[of], fine[of]);
-            assert!((order - stated[of]).abs() < 0.35, "{filter:?} {of}: order {order}");
+            // Faster is possible: what borders do to a spline dies out by a factor a voxel.
+            assert!(order > stated[of] - 0.35, "{filter:?} {of}: order {order}");
         }
     }
 }
