@@ -6,6 +6,7 @@ pub mod cost;
 pub mod cost_table;
 pub mod error;
 pub mod front;
+pub mod growth;
 pub mod held;
 pub mod histogram;
 mod isovalues;

@@ -13,6 +13,8 @@ mod filters;
 mod layers;
 mod lossless;
 mod perspective;
+mod random_scenes;
+mod reference;
 mod scales;
 mod several;
 mod stopping;

@@ -1,4 +1,4 @@
-//! Scenes as small as a millionth and as large as a million, far from the origin, in windows of every size (algorithm §10).
+//! Scenes as small as a billionth and as large as a billion, far from the origin, in windows of every size (algorithm §10).
 
 use gelray::components::{Sampling, View};
 use gelray::view::picture::Picture;
@@ -45,10 +45,12 @@ fn a_scene_scaled_or_moved_is_the_same_picture() {
     let here = scaled(1.0, 0.0).unwrap();
     assert!(here.pixels.iter().filter(|pixel| pixel[3] > 0.5).count() > 100);
     for (scale, offset) in [
+        (1e-9, 0.0),
         (1e-6, 0.0),
         (1e-3, 0.0),
         (1e3, 0.0),
         (1e6, 0.0),
+        (1e9, 0.0),
         (1.0, 1e6),
         (1.0, -1e6),
         (1e6, 1e6),
@@ -89,6 +91,32 @@ fn windows_of_every_size_and_shape_are_sound() {
                 let filled = picture.pixels.iter().all(|pixel| pixel[3] > 0.5);
                 assert!(filled || height > 1.0 / 40.0, "{size:?} {height:e}");
             }
+        }
+    }
+}
+
+#[test]
+fn fields_of_view_from_a_thousandth_of_a_degree_to_179_are_sound() {
+    let grid = centred([9; 3], 1.0);
+    let gel = homogeneous(&grid, [0.9, 0.3, 0.1, 0.2]);
+    let oblique = vec![square(DVec3::ZERO, DVec3::new(0.3, 1.0, 0.2), 6.0)];
+    let seen =
+        |field_of_view: Option<f64>, height: f64| {
+            let polygons = vec![(oblique.clone(), flat([0.2, 0.9, 1.0], 0.5))];
+            let mut scene =
+                Mixture { polygons, sampling: every_pixel(), ..Mixture::of(grid, gel.clone()) }
+                    .seen((20.0, 10.0), 16, height);
+            scene.view.field_of_view = field_of_view;
+            scene.render().picture
+        };
+    // From far away, half inside of the gel, and deep inside.
+    for height in [40.0, 5.0, 0.1] {
+        let parallel = seen(None, height);
+        for degrees in [1e-3, 0.1, 5.0, 60.0, 120.0, 170.0, 179.0] {
+            let picture = seen(Some(degrees), height);
+            assert_sound(&picture, &format!("{degrees}° of a window {height} high"));
+            let off = worst(&parallel, &picture);
+            assert!(degrees > 0.01 || off < 1e-3, "{degrees}°, {height}: {off}");
         }
     }
 }
