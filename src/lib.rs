@@ -58,7 +58,7 @@
 //! | `view` | the camera, the walk of a ray, samples, compositing, the picture |
 //! | `polygon` | faces, textures, what a polygon covers of voxels |
 //! | `light` | shading, and how strong a light still is |
-//! | `measure` | errors between pictures, histograms, fronts, growth, the cost table |
+//! | `measure` | errors between pictures and how they are estimated, histograms, fronts, growth, the cost table |
 //! | `formats` | a file format a file |
 //! | `phantom` | volumes and textures made by formula |
 //! | `resolve` | what a world leaves out, filled in |
@@ -97,6 +97,9 @@
 //! shades and shadows it there. `several` joins gels that overlap, `texture` filters what is mapped onto a
 //! polygon over the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample`
 //! ([`view::resampling`]) integrates the sample array to the picture, and [`formats::pictures`] writes it.
+//!
+//! Where a view states `estimate`, `judge`, a second system of the same folder, casts a few pixels exactly, drawn as often as the
+//! picture changes around them, and tells how far all of it is off ([`measure::survey`]).
 //!
 //! What lies over the picture, such as titles, scale bars and legends, `furnish` lays on it at its own resolution; boxes and
 //! leader lines are polygons in the gel.
@@ -199,7 +202,7 @@
 //!
 //! | what | how far | test |
 //! |---|---|---|
-//! | the whole way in 32 bits against a reference in 64 | 2e-5 of a ray, spacings to 1 : 100 | `hybrid::reference` |
+//! | the whole way in 32 bits against a reference in 64 | 1e-6 of a ray, spacings to 1 : 100 | `hybrid::reference` |
 //! | opacity of a voxel | 1e-9 to 1 − 6e-8 to every digit, 1e-12 to one in ten thousand, in 32-bit texels | `hybrid::layers`, `hybrid::extremes` |
 //! | in texels of 16 and 8 bits | under half a step (8e-6, 2e-3) nothing is seen, however many layers; half a step a layer else | `hybrid::layers` |
 //! | samples of a ray | a million, to 1e-6; a scene with more is refused | `hybrid::extremes` |
@@ -209,6 +212,9 @@
 //! | polygons | coincident, on planes of samples or voxels, sharing edges: each met once; edge-on: not met | `hybrid::extremes`, `hybrid::watertight` |
 //! | fields of view | 0.001° to 179°, from inside too; under 0.01° it is a parallel view | `hybrid::scales` |
 //! | windows | 1e-9 to 1e9 world units high | `hybrid::scales` |
+//!
+//! A picture's own error is in the same terms: [`measure::judged`] estimates it from a few pixels, wherever a view states
+//! `estimate`.
 //!
 //! [`texture`]: polygon::texture
 //! [`coverage`]: polygon::coverage

@@ -8,7 +8,7 @@
 //! | a polygon, a mesh | [`polygon`], [`triangles`], or a [`Polygon`] or [`Mesh`]; [`Surface`], [`Voxelize`], [`Textured`] |
 //! | a light | [`Light`]; [`CastsShadow`], [`Projects`], [`Shaft`] |
 //! | a texture | a [`Name`] and a [`Picture`] |
-//! | the view | [`View`]; [`Sampling`], [`DepthCue`] |
+//! | the view | [`View`]; [`Sampling`], [`DepthCue`], [`Estimate`] |
 //! | furniture | a [`Title`], [`ScaleBar`], [`Legend`], [`Callout`] or [`BoundingBox`], each on an entity of its own |
 //!
 //! All of it may be left out but something to see. A [`Renderer`] gives the picture of a world, again and again, and makes
@@ -18,10 +18,11 @@ pub use glam;
 pub use hecs::{self, Entity, World};
 
 pub use crate::components::{
-    BoundingBox, Callout, CastsShadow, Classify, Clip, Color, Contour, Corner, DepthCue, Filter,
-    Form, Legend, LegendEntry, Light, Material, Matte, Mesh, Name, OpacityUnit, Order, PixelFilter,
-    Polygon, Projection, Projects, Reconstruct, Sampling, ScaleBar, Shaft, Skip, Surface,
-    TexelKind, TextureFilter, Textured, Tissue, Title, Toward, TransferPoint, View, Voxelize, Wrap,
+    BoundingBox, Callout, CastsShadow, Classify, Clip, Color, Contour, Corner, DepthCue, Estimate,
+    Filter, Form, Legend, LegendEntry, Light, Material, Matte, Mesh, Name, OpacityUnit, Order,
+    PixelFilter, Polygon, Projection, Projects, Reconstruct, Sampling, ScaleBar, Shaft, Skip,
+    Surface, TexelKind, TextureFilter, Textured, Tissue, Title, Toward, TransferPoint, View,
+    Voxelize, Wrap,
 };
 pub use crate::error::Error;
 pub use crate::formats::pictures::write_picture;

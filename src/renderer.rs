@@ -5,6 +5,7 @@ use std::sync::Arc;
 use hecs::{Entity, World};
 
 use crate::error::Error;
+use crate::measure::judged::Judged;
 use crate::resolve::resolve;
 use crate::scene::check_world;
 use crate::schedule::{Ran, Schedule, Watch};
@@ -30,6 +31,8 @@ pub struct Rendered {
     pub picture: Picture,
     /// The rays that the picture was made of: where they were cast, their colours and their counts.
     pub samples: Arc<SampleArray>,
+    /// What the picture is off by, where the view states [`Estimate`](crate::components::Estimate).
+    pub judged: Option<Judged>,
     /// The entity that carries the view.
     pub view: Entity,
     /// What was guessed because the world does not state it, or is stated without effect: a sentence each.
@@ -72,11 +75,12 @@ impl Renderer {
         self.watch.check()?;
         let missing = || Error::Schedule("no system made a picture of the view".to_owned());
         let view = first_view(world).ok_or_else(missing)?;
-        let mut made = world.query_one::<(&Frame, &Samples)>(view);
-        let (frame, samples) = made.get().map_err(|_| missing())?;
+        let mut made = world.query_one::<(&Frame, &Samples, Option<&Judged>)>(view);
+        let (frame, samples, judged) = made.get().map_err(|_| missing())?;
         Ok(Rendered {
             picture: frame.0.clone(),
             samples: Arc::clone(&samples.0),
+            judged: judged.cloned(),
             view,
             notices,
             ran,

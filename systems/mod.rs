@@ -2,13 +2,13 @@
 
 use crate::schedule::Job;
 
-/// Declares the stages and their jobs: a line is a folder and the system in it.
+/// Declares the stages and their jobs: a line is a folder and the systems in it.
 macro_rules! stages {
-    ($($stage:ident :: $system:ident,)*) => {
+    ($($stage:ident :: $system:ident $(+ $other:ident)*,)*) => {
         $(pub mod $stage;)*
 
         /// Every job, in any order: the schedule derives it.
-        pub static JOBS: &[Job] = &[$(Job::of::<$stage::$system>()),*];
+        pub static JOBS: &[Job] = &[$(Job::of::<$stage::$system>(), $(Job::of::<$stage::$other>(),)*)*];
     };
 }
 
@@ -22,7 +22,7 @@ stages! {
     light_sweep::LightSweep,
     relight::Relight,
     pyramid::StackPyramid,
-    cast::Cast,
+    cast::Cast + Judge,
     furnish::Furnish,
     resample::Resample,
 }

@@ -6,6 +6,8 @@ mod animate;
 mod bad_input;
 #[path = "program/contact.rs"]
 mod contact;
+#[path = "program/estimated.rs"]
+mod estimated;
 #[path = "program/fuzzed.rs"]
 mod fuzzed;
 #[path = "program/inquiries.rs"]
@@ -34,6 +36,8 @@ mod scenes;
 mod sentences;
 #[path = "program/spared.rs"]
 mod spared;
+#[path = "program/targeted.rs"]
+mod targeted;
 #[path = "program/trade.rs"]
 mod trade;
 

@@ -3,11 +3,13 @@
 //! Flags mean the same for every verb and stand in any place. Results go to standard output, everything else to
 //! standard error. Exit codes: 0 done, 1 failed, 2 misused, 130 interrupted.
 
+mod accuracy;
 mod animate;
 mod animate_stats;
 mod assemble;
 mod bound;
 mod bytes;
+mod calibration;
 mod compare;
 mod contact;
 mod convert;
@@ -61,7 +63,9 @@ mod trade_page;
 mod trade_points;
 mod trade_run;
 mod trade_scene;
+mod trimming;
 mod verb_first;
+mod view_name;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -107,6 +111,8 @@ enum Verb {
         scene: Option<OsString>,
         #[command(flatten)]
         progressive: progressive::Progressive,
+        #[command(flatten)]
+        accuracy: accuracy::Accuracy,
     },
     /// Renders a sequence: frames, or an animation in one file
     #[command(after_help = animate::EXAMPLES)]
@@ -237,7 +243,9 @@ pub fn main(arguments: Vec<OsString>) -> ExitCode {
 fn run(verb: Verb, flags: &Flags) -> Result<(), Failure> {
     flags.set_threads()?;
     match verb {
-        Verb::Render { scene, progressive } => render::run(scene.as_deref(), &progressive, flags),
+        Verb::Render { scene, progressive, accuracy } => {
+            render::run(scene.as_deref(), &progressive, &accuracy, flags)
+        }
         Verb::Animate { scene, motion } => animate::run(scene.as_deref(), &motion, flags),
         Verb::Assemble { frames, fps } => assemble::run(&frames, fps, flags),
         Verb::Profile { scene, profiling } => profile::run(scene.as_deref(), &profiling, flags),

@@ -13,6 +13,7 @@ use gelray::scene::{Scene, Source};
 use gelray::schedule::Ran;
 use gelray::view::samples::POSITIONS;
 
+use super::accuracy::{Accuracy, Told, note};
 use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
@@ -24,7 +25,7 @@ use super::results::Results;
 use super::sentence::{DATA, sentence};
 use super::stats::{Bytes, Counted, Seconds, Stats};
 use super::trace::Trace;
-use super::{bound, contact, empty, outputs};
+use super::{bound, contact, empty, outputs, view_name};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -35,6 +36,8 @@ Examples:
   gelray render scene.toml -o out.exr --data ~/scans --exact
   gelray render -o head.png --set head.classify.iso.0.value=1200 --set observer.view.azimuth=60
   gelray render figure_09 -o 9.png --size 2000x2000 --progressive so_far --every 500ms
+  gelray render -o head.png --estimate               and how far the picture is off
+  gelray render -o head.png --target psnr=45         by the cheapest settings that keep it
   gelray render -o head.png --rays rays.png --stats head.json --trace spans.json";
 
 /// Flags that have a use here.
@@ -53,7 +56,12 @@ pub const TAKES: &[&str] = &[
 ];
 
 /// Renders the scene and writes what was asked for.
-pub fn run(scene: Option<&OsStr>, progressive: &Progressive, flags: &Flags) -> Result<(), Failure> {
+pub fn run(
+    scene: Option<&OsStr>,
+    progressive: &Progressive,
+    accuracy: &Accuracy,
+    flags: &Flags,
+) -> Result<(), Failure> {
     let start = Instant::now();
     flags.refuse_others("render", TAKES)?;
     let out = flags.output.as_deref().ok_or_else(|| {
@@ -68,7 +76,8 @@ pub fn run(scene: Option<&OsStr>, progressive: &Progressive, flags: &Flags) -> R
     progressive.check()?;
     let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
     let interrupt = Interrupt::listen();
-    let mut scene = load(&source, flags)?;
+    let mut scene = accuracy.calibrate(load(&source, flags)?, &interrupt, flags)?;
+    accuracy.state(&mut scene.world);
     let loaded = start.elapsed().as_secs_f64();
     let telling = telling_notes(&scene.name, &scene.resolved, flags, None);
     let looking = progressive.look(&mut scene, telling)?;
@@ -112,7 +121,8 @@ fn encoded(
     let _span = tracing::info_span!("encode").entered();
     let start = Instant::now();
     let mut results = Results::default();
-    let notes = notes(scene, counts, flags, None)?;
+    let mut notes = notes(scene, counts, flags, None)?;
+    notes.extend(note(made.judged.as_ref())?);
     let outs: Vec<&Path> = outs.into_iter().flatten().collect();
     results.pictures(&outs, &made.picture, &notes)?;
     if let Some(path) = &flags.rays {
@@ -157,23 +167,10 @@ pub fn warn(scene: &Scene, flags: &Flags) {
 pub fn changes(source: &Source, flags: &Flags) -> Vec<String> {
     let mut changes = flags.set.clone();
     if let Some([width, height]) = flags.size {
-        changes.push(format!("{}.view.size=[{width}, {height}]", view_name(&source.text)));
+        changes
+            .push(format!("{}.view.size=[{width}, {height}]", view_name::view_name(&source.text)));
     }
     changes
-}
-
-/// The name of the scene's view: as stated, or what a view without a name is called.
-fn view_name(text: &str) -> String {
-    let scene: toml::Table = text.parse().unwrap_or_default();
-    let entities =
-        scene.get("entity").and_then(toml::Value::as_array).map_or(&[][..], Vec::as_slice);
-    let name = |entity: &toml::Value| Some(entity.get("name")?.as_str()?.to_owned());
-    let view = entities.iter().find(|entity| entity.get("view").is_some());
-    let numbered = (2_u32..).map(|number| format!("observer {number}"));
-    let mut default = std::iter::once("observer".to_owned()).chain(numbered);
-    let free =
-        |default: &String| !entities.iter().any(|entity| name(entity).as_ref() == Some(default));
-    view.and_then(name).or_else(|| default.find(free)).unwrap_or_default()
 }
 
 /// Whose fault an error is: that of `--set` if it stands in a line that is not the scene's own.
@@ -215,6 +212,7 @@ fn stats<'a>(
         exact,
         systems: &made.ran,
         counts,
+        error: made.judged.as_ref(),
         bytes: Bytes::of(&scene.world),
         seconds: Seconds::of(&made.ran, load, encode, total),
     }
@@ -234,5 +232,8 @@ fn say_done(out: &Path, made: &Rendered, counts: &Counted, total: f64, flags: &F
     } else {
         out.display().to_string()
     };
-    tell(format_args!("{out}: {width} × {height} pixels, {rays:.2} rays a pixel, {total:.3} s"));
+    let off = made.judged.as_ref().map_or(String::new(), |judged| format!("; {}", Told(judged)));
+    tell(format_args!(
+        "{out}: {width} × {height} pixels, {rays:.2} rays a pixel, {total:.3} s{off}"
+    ));
 }

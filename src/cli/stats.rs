@@ -1,6 +1,7 @@
 //! `--stats`: counts, bytes and seconds of a render, under keys that scripts of others depend on.
 
 use gelray::light::strength::LightStrength;
+use gelray::measure::judged::Judged;
 use gelray::schedule::Ran;
 use gelray::view::samples::Counts;
 use gelray::volume::gel::Gel;
@@ -23,6 +24,9 @@ pub struct Stats<'a> {
     pub exact: bool,
     pub systems: &'a [Ran],
     pub counts: Counted,
+    /// What the picture is off by, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<&'a Judged>,
     pub bytes: Bytes,
     pub seconds: Seconds,
 }
@@ -87,6 +91,8 @@ pub struct Seconds {
     prepare: f64,
     /// Casting rays and resampling.
     frame: f64,
+    /// Estimating what the picture is off by.
+    estimate: f64,
     /// Making the files of the picture and of its rays.
     encode: f64,
     /// From the start to the last byte of the picture.
@@ -99,7 +105,9 @@ impl Seconds {
         let of_frame = |ran: &Ran| matches!(ran.name, "cast" | "resample");
         let add = |sum: f64, ran: &Ran| sum + ran.seconds;
         let frame = ran.iter().filter(|ran| of_frame(ran)).fold(0.0, add);
-        let prepare = ran.iter().filter(|ran| !of_frame(ran)).fold(0.0, add);
-        Self { load, prepare, frame, encode, total }
+        let of_estimate = |ran: &Ran| ran.name == "judge";
+        let estimate = ran.iter().filter(|ran| of_estimate(ran)).fold(0.0, add);
+        let prepare = ran.iter().filter(|ran| !of_frame(ran) && !of_estimate(ran)).fold(0.0, add);
+        Self { load, prepare, frame, estimate, encode, total }
     }
 }

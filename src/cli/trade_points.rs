@@ -2,6 +2,7 @@
 
 use gelray::components::{KNOBS, Sampling};
 use gelray::measure::front::front;
+use gelray::view::samples::Counts;
 use serde::{Deserialize, Serialize};
 
 use super::goal::Goal;
@@ -25,6 +26,9 @@ pub struct Point {
     pub rays: u64,
     /// Samples of all views.
     pub samples: u64,
+    /// Samples that packets of sixteen rays looked at together.
+    #[serde(default)]
+    pub packet_steps: u64,
     /// Bytes of the gel.
     pub gel_bytes: u64,
     /// The greatest difference of a channel.
@@ -64,6 +68,12 @@ impl Point {
         psnr_db(self.rmse)
     }
 
+    /// What its frames took, counted: see [`work`].
+    pub fn work(&self) -> f64 {
+        let Self { rays, samples, packet_steps, .. } = *self;
+        work(&Counts { rays, samples, packet_steps, ..Counts::default() })
+    }
+
     /// Whether it keeps a goal.
     pub fn keeps(&self, goal: Goal) -> bool {
         match goal {
@@ -73,6 +83,11 @@ impl Point {
             Goal::Milliseconds(most) => self.milliseconds <= most,
         }
     }
+}
+
+/// What rays take, in parts of about equal time: a sample, what a packet looks at together, and a ray that is made.
+pub fn work(counts: &Counts) -> f64 {
+    counts.samples as f64 + 8.0 * counts.packet_steps as f64 + 32.0 * counts.rays as f64
 }
 
 /// Decibels of a root-mean-square error.
@@ -188,6 +203,7 @@ mod tests {
             times_within: None,
             rays: 0,
             samples: 0,
+            packet_steps: 0,
             gel_bytes: 0,
             max: rmse * 5.0,
             rmse,

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use gelray::Renderer;
-use gelray::components::{Sampling, View};
+use gelray::components::{Estimate, Sampling, View};
 use gelray::measure::cost::FRAME;
 use gelray::measure::error::{Difference, compare};
+use gelray::measure::judged::Judged;
 use gelray::measure::paired::ratio_of_pairs;
 use gelray::scene::Scene;
 use gelray::schedule::Watch;
@@ -14,6 +15,7 @@ use gelray::view::samples::Counts;
 use gelray::volume::gel::{Gel, GelBricks};
 use gelray::volume::grid::smallest_spacing;
 use gelray::volume::scene_volumes::visible;
+use hecs::Entity;
 
 use super::failure::Failure;
 use super::trade_points::{Choice, Point};
@@ -85,6 +87,7 @@ impl TradeScene {
         let views = self.views;
         let turns = (0..repeat).flat_map(|round| (0..views).map(move |view| (round, view)));
         let (mut pairs, mut counts) = (Vec::new(), Counts::default());
+        let mut seconds = vec![Vec::new(); views as usize];
         let mut worst: Option<Difference> = None;
         for (round, view) in turns {
             // The next choice begins with the scene's own settings: they must not be the last of this one.
@@ -95,12 +98,14 @@ impl TradeScene {
                 (self.frame(view, &beside)?.seconds, self.frame(view, &sampling)?)
             };
             pairs.push([if is_base { made.seconds } else { before }, made.seconds]);
+            seconds[view as usize].push(made.seconds * 1e3);
             if round == 0 {
                 counts += made.counts;
                 let found = off(&made.picture, &self.references[view as usize])?;
-                if worst.as_ref().is_none_or(|worst| found.linear.rmse > worst.linear.rmse) {
-                    worst = Some(found);
-                }
+                worst = Some(match worst {
+                    Some(worst) => worse(worst, found),
+                    None => found,
+                });
             }
         }
         let worst = worst.ok_or_else(|| Failure::Said("nothing was measured".to_owned()))?;
@@ -108,7 +113,7 @@ impl TradeScene {
         let ratio = ratio_of_pairs(&pairs)
             .ok_or_else(|| Failure::Said("a frame took no time that can be measured".to_owned()))?;
         if is_base {
-            self.milliseconds = median(pairs.iter().map(|pair| pair[1] * 1e3).collect());
+            self.milliseconds = seconds.into_iter().map(median).fold(0.0, f64::max);
         }
         let is_bounded = ratio.low > 0.0 && ratio.high.is_finite();
         Ok(Point {
@@ -120,6 +125,7 @@ impl TradeScene {
             times_within: is_bounded.then_some([ratio.low, ratio.high]),
             rays: counts.rays,
             samples: counts.samples,
+            packet_steps: counts.packet_steps,
             gel_bytes: self.gel_bytes(),
             max: worst.linear.max,
             rmse: worst.linear.rmse,
@@ -140,8 +146,37 @@ impl TradeScene {
         self.scene.world.query::<&Gel>().iter().map(bytes).sum()
     }
 
+    /// Turns to another size of the pictures; references are of the old one.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.references.clear();
+        self.scene.world.query_mut::<&mut View>().into_iter().for_each(|view| view.size = size);
+    }
+
+    /// What the picture of the first view is off by, from a part of its pixels that take `share` times its work.
+    pub fn judged(&mut self, share: f64) -> Result<Option<Judged>, Failure> {
+        let views: Vec<Entity> =
+            self.scene.world.query_mut::<Entity>().with::<&View>().into_iter().collect();
+        let mut stated = Vec::new();
+        for view in views {
+            let own = self.scene.world.get::<&Estimate>(view).map(|own| *own).ok();
+            stated.push((view, own));
+            // It was found there a line ago.
+            let _ = self.scene.world.insert_one(view, Estimate { seed: 0, share });
+        }
+        let base = self.base.clone();
+        self.frame(0, &base)?;
+        let judged = self.scene.world.query::<&Judged>().iter().next().cloned();
+        for (view, own) in stated {
+            let world = &mut self.scene.world;
+            // It carries one since a few lines ago.
+            let _ = world.remove_one::<Estimate>(view);
+            let _ = own.map(|own| world.insert_one(view, own));
+        }
+        Ok(judged)
+    }
+
     /// A frame of one of the views.
-    fn frame(&mut self, view: u32, sampling: &Sampling) -> Result<Timed, Failure> {
+    pub fn frame(&mut self, view: u32, sampling: &Sampling) -> Result<Timed, Failure> {
         let world = &mut self.scene.world;
         for (stated, own) in world.query_mut::<(&mut View, &mut Sampling)>() {
             stated.azimuth = self.azimuth + 360.0 * f64::from(view) / f64::from(self.views);
@@ -155,14 +190,22 @@ impl TradeScene {
 }
 
 /// A frame, and the seconds of casting and resampling.
-struct Timed {
-    picture: Picture,
-    counts: Counts,
-    seconds: f64,
+pub struct Timed {
+    pub picture: Picture,
+    pub counts: Counts,
+    pub seconds: f64,
+}
+
+/// The worse of two views, measure by measure; where is where the worse mean is.
+fn worse(a: Difference, b: Difference) -> Difference {
+    let [max, ssim] = [a.linear.max.max(b.linear.max), a.linear.ssim.min(b.linear.ssim)];
+    let mut worst = if b.linear.rmse > a.linear.rmse { b } else { a };
+    (worst.linear.max, worst.linear.ssim) = (max, ssim);
+    worst
 }
 
 /// The middle one of some numbers.
-fn median(mut numbers: Vec<f64>) -> f64 {
+pub fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers[numbers.len() / 2]
 }

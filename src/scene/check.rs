@@ -2,8 +2,8 @@
 
 use crate::components::direction::unit;
 use crate::components::{
-    CastsShadow, Classify, Clip, DepthCue, Level, Light, Material, Mesh, Polygon, Projects,
-    Sampling, Shaft, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
+    CastsShadow, Classify, Clip, DepthCue, Estimate, Level, Light, Material, Mesh, Polygon,
+    Projects, Sampling, Shaft, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
 };
 
 /// The strongest light: thousands of them, focused by a falloff of 1e-12, still add up to a number.
@@ -34,6 +34,7 @@ impl Check for Voxelize {}
 impl Check for CastsShadow {}
 impl Check for View {}
 impl Check for DepthCue {}
+impl Check for Estimate {}
 impl Check for Shaft {}
 impl Check for Polygon {}
 

@@ -16,9 +16,9 @@ use super::check::Check;
 use super::error::Fault;
 use super::grammar;
 use crate::components::{
-    Animate, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, KNOBS, Labels, Legend,
-    Level, Light, Material, Mesh, Molecule, Polygon, Projection, Projects, Sampling, ScaleBar,
-    Setting, Shaft, Surface, Texture, Textured, Title, View, Volume, Voxelize,
+    Animate, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Estimate, KNOBS, Labels,
+    Legend, Level, Light, Material, Mesh, Molecule, Polygon, Projection, Projects, Sampling,
+    ScaleBar, Setting, Shaft, Surface, Texture, Textured, Title, View, Volume, Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -38,7 +38,7 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 26] = [
+pub(super) static COMPONENTS: [Row; 27] = [
     row::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
@@ -64,6 +64,7 @@ pub(super) static COMPONENTS: [Row; 26] = [
     row::<View>("view", &[]),
     row::<Sampling>("sampling", &["view"]),
     row::<DepthCue>("depth_cue", &["view"]),
+    row::<Estimate>("estimate", &["view"]),
     row::<Animate>(
         "animate",
         &["volume", "polygon", "mesh", "molecule", "light", "texture", "view"],

@@ -4,6 +4,7 @@ mod agreement;
 mod composing;
 mod cues;
 mod furnished;
+mod judged;
 mod labeled;
 mod maps;
 mod operators;

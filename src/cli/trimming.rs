@@ -1,0 +1,185 @@
+//! Settings of a front, tried at the full size, and trimmed to a goal by knobs that turn continuously.
+
+use gelray::components::Sampling;
+use gelray::measure::judged::Judged;
+
+use super::failure::Failure;
+use super::goal::Goal;
+use super::trade_points::work;
+use super::trade_scene::{TradeScene, median};
+
+/// How long the exact pixels may take, in frames.
+const SHARE: f64 = 12.0;
+/// Decibels above the goal that are aimed at: some thousand pixels do not tell it closer.
+const MARGIN: f64 = 0.3;
+/// Frames that are timed of each choice.
+const TIMED: u8 = 5;
+/// How often a knob's range is halved.
+const HALVINGS: u32 = 5;
+
+/// Settings that were tried.
+#[derive(Clone)]
+pub struct Tried {
+    pub sampling: Sampling,
+    /// What is expected of them, in words.
+    pub told: String,
+    /// By how much the goal is kept: below 0 it is not.
+    kept: f64,
+    cost: f64,
+}
+
+/// The scene at its full size, and what tells whether a goal is kept.
+pub struct Bench<'a> {
+    traded: &'a mut TradeScene,
+    goal: Goal,
+    /// For a goal of decibels.
+    judged: Option<Judged>,
+    /// The work of what the scene states.
+    stated: f64,
+}
+
+/// A knob that turns continuously: by a factor above 1 it makes a frame cheaper.
+type Trim = fn(&mut Sampling, f64);
+
+const TRIMS: [Trim; 3] = [
+    |sampling, by| sampling.distance_mm = sampling.distance_mm.map(|distance| distance * by),
+    |sampling, by| sampling.tolerance = sampling.tolerance.max(0.002) * by as f32,
+    |sampling, by| sampling.stop_at = (sampling.stop_at.max(0.001) * by as f32).min(0.5),
+];
+
+impl<'a> Bench<'a> {
+    /// Casts the exact pixels, if the goal asks for an accuracy.
+    pub fn new(traded: &'a mut TradeScene, goal: Goal) -> Result<Self, Failure> {
+        let judged = match goal {
+            Goal::Psnr(_) => traded.judged(SHARE)?,
+            _ => None,
+        };
+        let base = traded.base.clone();
+        let stated = work(&traded.frame(0, &base)?.counts);
+        Ok(Self { traded, goal, judged, stated })
+    }
+
+    /// The best settings: those of a front, cheapest first, trimmed.
+    pub fn choose(&mut self, front: &[&Sampling]) -> Result<Tried, Failure> {
+        match self.goal {
+            Goal::Milliseconds(_) => self.most_exact(front),
+            _ => self.cheapest(front),
+        }
+    }
+
+    /// The cheapest settings that keep an accuracy.
+    fn cheapest(&mut self, front: &[&Sampling]) -> Result<Tried, Failure> {
+        let (mut low, mut high) = (0, front.len());
+        let mut last = None;
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            let tried = self.tried(front[middle].clone())?;
+            if tried.kept >= 0.0 {
+                high = middle;
+            } else {
+                low = middle + 1;
+            }
+            last = Some(tried);
+        }
+        if high == front.len() {
+            let reached = last.map_or_else(String::new, |tried| tried.told);
+            return Err(Failure::Said(format!(
+                "no settings that were tried keep the target, the most exact {reached}; ask for less, or look at what `gelray trade` finds"
+            )));
+        }
+        let mut best: Option<Tried> = None;
+        for sampling in &front[high..(high + 2).min(front.len())] {
+            let start = self.tried((*sampling).clone())?;
+            let trims = TRIMS.map(|trim| self.trimmed(&start, |by| by, trim));
+            for tried in trims.into_iter().chain([Ok(start)]) {
+                let tried = tried?;
+                let cheaper = best.as_ref().is_none_or(|best| tried.cost < best.cost);
+                if tried.kept >= 0.0 && cheaper {
+                    best = Some(tried);
+                }
+            }
+        }
+        best.ok_or_else(|| Failure::Said("no settings were tried".to_owned()))
+    }
+
+    /// The most exact settings that keep a time.
+    fn most_exact(&mut self, front: &[&Sampling]) -> Result<Tried, Failure> {
+        let (mut low, mut high) = (0, front.len());
+        let mut best = None;
+        let mut least = String::new();
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            let tried = self.tried(front[middle].clone())?;
+            if tried.kept >= 0.0 {
+                low = middle + 1;
+                best = Some(tried);
+            } else {
+                high = middle;
+                least = tried.told;
+            }
+        }
+        let Some(start) = best else {
+            return Err(Failure::Said(format!(
+                "no settings that were tried keep the target, the fastest {least}; allow for more time, or a smaller --size"
+            )));
+        };
+        self.trimmed(&start, |by| 1.0 / by, TRIMS[0])
+    }
+
+    /// Settings turned by a knob as far as the goal is kept, up to a factor of four.
+    fn trimmed(
+        &mut self,
+        start: &Tried,
+        direction: fn(f64) -> f64,
+        trim: Trim,
+    ) -> Result<Tried, Failure> {
+        let mut best = start.clone();
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(low, high);
+            let mut sampling = start.sampling.clone();
+            trim(&mut sampling, direction(4.0_f64.powf(middle)));
+            let tried = self.tried(sampling)?;
+            if tried.kept >= 0.0 {
+                low = middle;
+                best = tried;
+            } else {
+                high = middle;
+            }
+        }
+        Ok(best)
+    }
+
+    fn tried(&mut self, sampling: Sampling) -> Result<Tried, Failure> {
+        match (self.goal, &self.judged) {
+            (Goal::Psnr(least), Some(judged)) => {
+                let made = self.traded.frame(0, &sampling)?;
+                let Judged { psnr_db, low, high, .. } = judged.of_another(&made.picture);
+                let cost = work(&made.counts);
+                let told = format!(
+                    "expected: {psnr_db:.1} dB ({low:.1} to {high:.1}), {:.2} times the work of what the scene states",
+                    cost / self.stated
+                );
+                Ok(Tried { sampling, told, kept: psnr_db - least - MARGIN, cost })
+            }
+            (Goal::Milliseconds(most), _) => {
+                let milliseconds = self.milliseconds(&sampling)?;
+                let told = format!("expected: {milliseconds:.1} ms for a frame");
+                Ok(Tried { sampling, told, kept: most - milliseconds, cost: milliseconds })
+            }
+            _ => Err(Failure::Said("the picture cannot be judged".to_owned())),
+        }
+    }
+
+    /// The median of some frames.
+    fn milliseconds(&mut self, sampling: &Sampling) -> Result<f64, Failure> {
+        let mut seconds = Vec::new();
+        for time in 0..TIMED {
+            // Frames of equal settings in a row would be kept, and take no time.
+            let tolerance = sampling.tolerance + 1e-6 * f32::from(time + 1);
+            let frame = self.traded.frame(0, &Sampling { tolerance, ..sampling.clone() })?;
+            seconds.push(frame.seconds * 1e3);
+        }
+        Ok(median(seconds))
+    }
+}

@@ -1,0 +1,65 @@
+//! A pixel as it would be with a ray at every position that it is made of.
+
+use super::lanes::{LANES, Lanes, Packet, SIDE, each};
+use super::targets::{Caster, RayColors};
+use crate::components::{Color, PixelFilter};
+use crate::view::picture::Picture;
+use crate::view::resampling::resample;
+use crate::view::samples::{Colors, Counts, Layout, POSITIONS, SampleArray};
+
+/// Every region is split to single positions.
+const ALL_SPLIT: u8 = 0b1_1111;
+
+/// The picture of pixel `(x, y)` alone, from rays at all the positions that `filter` asks for.
+pub fn exact_pixel<C: Caster>(
+    caster: &C,
+    [x, y]: [usize; 2],
+    (filter, background): (PixelFilter, Option<Color>),
+    scratch: &mut C::Scratch,
+    counts: &mut Counts,
+) -> Picture {
+    let reach = filter.reach();
+    let layout = Layout::new([1, 1], 1, reach);
+    let mut array = all_open(layout);
+    let (first, side) = (layout.margin - reach, 2 * reach + 1);
+    let mut rays = [RayColors::default(); LANES];
+    for j in (0..side).step_by(SIDE) {
+        for i in (0..side).step_by(SIDE) {
+            let held = |lane: &usize| i + lane % SIDE < side && j + lane / SIDE < side;
+            let wanted = (0..LANES).filter(held).fold(0, |set, lane| set | (1 as Lanes) << lane);
+            let place = |pixel: usize, at: usize| (pixel * POSITIONS + at) as i64 - reach as i64;
+            caster.cast(
+                &Packet { first: [place(x, i), place(y, j)], step: 1, wanted },
+                &mut rays,
+                scratch,
+                counts,
+            );
+            for lane in each(wanted) {
+                let at = [first + i + lane % SIDE, first + j + lane / SIDE];
+                let (within, block) = layout.place(at[0], at[1]);
+                if within == 0 {
+                    array.colors.lattice[block] = rays[lane].full;
+                } else {
+                    array.colors.fine[block][within] = rays[lane].full;
+                }
+            }
+            counts.rays += u64::from(wanted.count_ones());
+        }
+    }
+    resample(&array, filter, background)
+}
+
+/// An array with a ray at every position, none of which has a color yet.
+fn all_open(layout: Layout) -> SampleArray {
+    let blocks: usize = layout.blocks().iter().product();
+    let mut colors = Colors::new(&layout);
+    colors.fine = vec![[[0.0; 4]; POSITIONS * POSITIONS]; blocks];
+    SampleArray {
+        layout,
+        colors,
+        opened: (0..blocks as u32).collect(),
+        cast: vec![u16::MAX; blocks],
+        splits: vec![ALL_SPLIT; blocks],
+        counts: Counts::default(),
+    }
+}

@@ -1,0 +1,216 @@
+//! What the rays of a view meet, made of the inputs; and the errands that they are sent on.
+
+use fearless_simd::Level;
+
+use super::appearance::Appearance;
+use super::beams::Beams;
+use super::caster::BeamCaster;
+use super::cue::Cue;
+use super::inputs::{Inputs, Placed, Sampled};
+use super::kernel;
+use super::march::Slabs;
+use super::media::{Media, Nothing};
+use super::medium::{Medium, Source};
+use super::polygons::Polygons;
+use super::projected::ProjectedFace;
+use super::projection::Projections;
+use super::receiving;
+use super::several::{AnyMedium, Several};
+use super::shaft::Dust;
+use super::texture::FaceTexture;
+use super::values::Values;
+use crate::components::{Skip, Surface};
+use crate::error::Error;
+use crate::polygon::face::FaceColors;
+use crate::view::camera::Camera;
+use crate::view::samples::Layout;
+use crate::view::walk::Walk;
+use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
+use crate::volume::grid::smallest_spacing;
+use crate::volume::pyramid::{Pyramid, PyramidSlices};
+
+/// What is to be done with the rays of a view, whatever they meet.
+pub trait Errand {
+    /// What they bring back.
+    type Done;
+    /// Does it.
+    fn run<M: Media>(self, caster: BeamCaster<'_, M>) -> Result<Self::Done, Error>;
+}
+
+/// Δ: as stated, else the smallest spacing of any volume; without a volume it makes no difference.
+pub fn distance(inputs: &Inputs) -> f64 {
+    let grids = inputs.volumes.iter().map(|volume| volume.grid);
+    let smallest = smallest_spacing(grids.chain(inputs.projections.iter().map(|v| v.grid)));
+    inputs.sampling.distance_mm.or(smallest).unwrap_or(inputs.extent.radius())
+}
+
+/// Sends rays on an errand; `layout` holds every position that they are cast at.
+pub fn send<E: Errand>(
+    inputs: &Inputs,
+    camera: &Camera,
+    layout: Layout,
+    errand: E,
+) -> Result<E::Done, Error> {
+    let beams = Beams::new(layout);
+    let cue = inputs.cue.map(|cue| {
+        let near = camera.depth(inputs.extent.center()) - inputs.extent.radius();
+        Cue { k1: cue.k1, k2: cue.k2, near }
+    });
+    let polygons = polygons(inputs, camera, &beams, cue);
+    // A transparency is never under 0: a ray that is not to stop goes on behind what is opaque.
+    let stop_at = f64::from(inputs.sampling.stop_at);
+    let stop = if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY };
+    let eye = camera.eye.map_or(f64::NEG_INFINITY, |eye| -eye);
+    let slabs = Slabs { distance: distance(inputs), stop, eye };
+    let dust = Dust::new(&inputs.shafts, camera).map_err(|p| Error::entity("shaft", p))?;
+    let dust = dust.as_ref();
+    let mut media = Vec::new();
+    // Where dust is, nothing is stepped over; several volumes have one dust.
+    let alone = dust.filter(|_| inputs.volumes.len() == 1);
+    let view = SharedView { camera, slabs, cue, skips: dust.is_none(), level: Level::new() };
+    for placed in &inputs.volumes {
+        media.extend(view.medium(placed, alone)?);
+    }
+    let skips = inputs.sampling.skip != Skip::None;
+    let projections = Projections::new(&inputs.projections, camera, slabs.distance, skips);
+    let projections = projections.map_err(|problem| Error::entity("view", problem))?;
+    let sampling = &inputs.sampling;
+    let three_colors = sampling.finest < 4 && sampling.coarsest > sampling.finest;
+    let rays = Rays { polygons, projections, slabs, three_colors };
+    match media.len() {
+        0 => rays.go(&Nothing, errand),
+        1 => match media.swap_remove(0) {
+            AnyMedium::F32(medium) => rays.go(&medium, errand),
+            AnyMedium::U16(medium) => rays.go(&medium, errand),
+            AnyMedium::U8(medium) => rays.go(&medium, errand),
+            AnyMedium::Values(medium) => rays.go(&*medium, errand),
+        },
+        _ => {
+            let several = Several { media, dust };
+            rays.go(&several, errand)
+        }
+    }
+}
+
+/// The polygons of a scene on a view.
+fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -> Polygons {
+    let lamps = &inputs.lamps;
+    let projected = inputs.polygons.iter().flat_map(|traced| {
+        traced.faces.0.iter().enumerate().filter_map(|(at, face)| {
+            let texture =
+                traced.textured.as_ref().and_then(|by| FaceTexture::new(by, face, camera));
+            let offsets = traced.grid.as_ref().map_or_else(Vec::new, |grid| {
+                receiving::shadow_offsets(face.normal, lamps, &inputs.strengths, grid)
+            });
+            let own = FaceColors::of(traced.colors.as_ref(), at);
+            let color = own.unwrap_or(traced.surface.color);
+            let surface = Surface { color, ..traced.surface };
+            let looks = Appearance::new(&surface, face.normal, lamps, offsets, texture);
+            ProjectedFace::new(face, camera, looks, traced.faces.0.len())
+        })
+    });
+    // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
+    let slack = 1e-9 * inputs.extent.radius() + 1e-14 * inputs.extent.center().abs().max_element();
+    Polygons::new(projected.collect(), beams, slack, *camera, cue, inputs.strengths.clone())
+}
+
+/// What the volumes of a view have in common.
+struct SharedView<'a> {
+    camera: &'a Camera,
+    slabs: Slabs,
+    cue: Option<Cue>,
+    /// Whether empty gel is stepped over.
+    skips: bool,
+    level: Level,
+}
+
+impl<'a> SharedView<'a> {
+    /// A volume as the rays of the view meet it, whatever it is made of; `None` where it is too small to be met.
+    fn medium(
+        &self,
+        placed: &'a Placed,
+        dust: Option<&'a Dust>,
+    ) -> Result<Option<AnyMedium<'a>>, Error> {
+        let Gel { lit, ambient } = match &placed.content {
+            Sampled::Gel(gel) => gel,
+            Sampled::Values(stated) => {
+                let values = Values::new(stated, (&placed.grid, placed.unit), self.steps(placed));
+                let medium = self.of(placed, values, dust)?;
+                return Ok(medium.map(|medium| AnyMedium::Values(Box::new(medium))));
+            }
+        };
+        Ok(match (lit, ambient) {
+            (GelBricks::F32(lit), None) => self.gel(placed, lit, None, dust)?.map(AnyMedium::F32),
+            (GelBricks::F32(lit), Some(GelBricks::F32(ambient))) => {
+                self.gel(placed, lit, Some(ambient), dust)?.map(AnyMedium::F32)
+            }
+            (GelBricks::U16(lit), None) => self.gel(placed, lit, None, dust)?.map(AnyMedium::U16),
+            (GelBricks::U16(lit), Some(GelBricks::U16(ambient))) => {
+                self.gel(placed, lit, Some(ambient), dust)?.map(AnyMedium::U16)
+            }
+            (GelBricks::U8(lit), None) => self.gel(placed, lit, None, dust)?.map(AnyMedium::U8),
+            (GelBricks::U8(lit), Some(GelBricks::U8(ambient))) => {
+                self.gel(placed, lit, Some(ambient), dust)?.map(AnyMedium::U8)
+            }
+            _ => {
+                let problem = "the two parts of the gel are of different texels";
+                return Err(Error::Schedule(problem.to_owned()));
+            }
+        })
+    }
+
+    fn gel<T: Texel>(
+        &self,
+        placed: &'a Placed,
+        lit: &'a Texels<T>,
+        ambient: Option<&'a Texels<T>>,
+        dust: Option<&'a Dust>,
+    ) -> Result<Option<Medium<'a, kernel::GelSlices<'a, T>>>, Error> {
+        let (texels, ambient) = (lit.slices(), ambient.map(Texels::slices));
+        let pyramid = self.steps(placed);
+        self.of(placed, kernel::GelSlices { texels, ambient, pyramid }, dust)
+    }
+
+    /// What steps over empty parts of a volume.
+    fn steps(&self, placed: &'a Placed) -> Option<PyramidSlices<'a>> {
+        placed.pyramid.as_ref().filter(|_| self.skips).map(Pyramid::slices)
+    }
+
+    fn of<S: Source>(
+        &self,
+        placed: &'a Placed,
+        source: S,
+        dust: Option<&'a Dust>,
+    ) -> Result<Option<Medium<'a, S>>, Error> {
+        let distance = self.slabs.distance;
+        let walk = Walk::new(&placed.grid, self.camera, distance)
+            .map_err(|problem| Error::entity("view", problem))?;
+        let pyramid = self.steps(placed);
+        Ok(walk.map(|walk| Medium {
+            walk,
+            camera: self.camera,
+            source,
+            pyramid,
+            ratio: distance / placed.unit,
+            distance,
+            cue: self.cue,
+            dust,
+            level: self.level,
+        }))
+    }
+}
+
+/// What the rays of a view share, whatever they meet.
+struct Rays<'a> {
+    polygons: Polygons,
+    projections: Projections<'a>,
+    slabs: Slabs,
+    three_colors: bool,
+}
+
+impl Rays<'_> {
+    fn go<M: Media, E: Errand>(self, media: &M, errand: E) -> Result<E::Done, Error> {
+        let Self { polygons, projections, slabs, three_colors } = self;
+        errand.run(BeamCaster { polygons, projections, slabs, media, three_colors })
+    }
+}
