@@ -9,7 +9,7 @@
 //! | a light | [`Light`]; [`CastsShadow`], [`Projects`], [`Shaft`] |
 //! | a texture | a [`Name`] and a [`Picture`] |
 //! | the view | [`View`]; [`Sampling`], [`DepthCue`], [`Estimate`] |
-//! | furniture | a [`Title`], [`ScaleBar`], [`Legend`], [`Callout`] or [`BoundingBox`], each on an entity of its own |
+//! | furniture | a [`Title`], [`ScaleBar`], [`Legend`], [`Callout`], [`Axes`], [`OrientationCube`] or [`BoundingBox`], each on an entity of its own |
 //!
 //! All of it may be left out but something to see. A [`Renderer`] gives the picture of a world, again and again, and makes
 //! only what hangs on what was changed in between; its [`Watch`] tells another thread how far it is, and stops it.
@@ -18,11 +18,11 @@ pub use glam;
 pub use hecs::{self, Entity, World};
 
 pub use crate::components::{
-    BoundingBox, Callout, CastsShadow, Classify, Clip, Color, Contour, Corner, DepthCue, Estimate,
-    Filter, Form, Legend, LegendEntry, Light, Material, Matte, Mesh, Name, OpacityUnit, Order,
-    PixelFilter, Polygon, Projection, Projects, Reconstruct, Sampling, ScaleBar, Shaft, Skip,
-    Surface, TexelKind, TextureFilter, Textured, Tissue, Title, Toward, TransferPoint, View,
-    Voxelize, Wrap,
+    Axes, BoundingBox, Callout, CastsShadow, Classify, Clip, Color, Contour, Corner, DepthCue,
+    Estimate, Filter, Form, Legend, LegendEntry, Light, Material, Matte, Mesh, Name, OpacityUnit,
+    Order, OrientationCube, PixelFilter, Polygon, Projection, Projects, Reconstruct, Sampling,
+    ScaleBar, Shaft, Skip, Surface, TexelKind, TextureFilter, Textured, Tissue, Title, Toward,
+    TransferPoint, View, Voxelize, Wrap,
 };
 pub use crate::error::Error;
 pub use crate::formats::pictures::write_picture;

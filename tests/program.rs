@@ -16,6 +16,8 @@ mod inquiries;
 mod interrupted;
 #[path = "program/limits.rs"]
 mod limits;
+#[path = "program/maps.rs"]
+mod maps;
 #[path = "program/misuse.rs"]
 mod misuse;
 #[path = "program/planned.rs"]

@@ -17,7 +17,7 @@ use super::raw_header::RawHeader;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Flags")]
 pub struct Flags {
-    /// The file to write; its extension says the format (.png .exr .tiff .npy); - is standard output (a PNG)
+    /// The file to write; its extension says the format (.png .exr .tiff .npy .jpg); - is standard output (a PNG)
     #[arg(short, long, value_name = "OUT", global = true)]
     pub output: Option<PathBuf>,
     /// Pixels across and down, in place of the scene's
@@ -53,6 +53,9 @@ pub struct Flags {
     /// Writes where rays were cast, 4 × 4 positions a pixel
     #[arg(long, value_name = "FILE.png", global = true, value_parser = OsStringValueParser::new().try_map(png))]
     pub rays: Option<PathBuf>,
+    /// Writes what each pixel shows first: depth, normal and entity (.exr or .npy)
+    #[arg(long, value_name = "FILE", global = true, value_parser = OsStringValueParser::new().try_map(layers))]
+    pub maps: Option<PathBuf>,
     /// Refuses to begin if the plan needs more bytes (8G, 512M)
     #[arg(long, value_name = "BYTES", global = true, value_parser = bytes::parse)]
     pub max_memory: Option<u64>,
@@ -71,7 +74,7 @@ pub struct Flags {
 }
 
 /// The flags that not every verb has a use for.
-pub const FOR_SOME: [&str; 13] = [
+pub const FOR_SOME: [&str; 14] = [
     "--output",
     "--size",
     "--set",
@@ -82,6 +85,7 @@ pub const FOR_SOME: [&str; 13] = [
     "--stats",
     "--trace",
     "--rays",
+    "--maps",
     "--max-memory",
     "--fail-below",
     "--raw",
@@ -101,6 +105,7 @@ impl Flags {
             self.stats.is_some(),
             self.trace.is_some(),
             self.rays.is_some(),
+            self.maps.is_some(),
             self.max_memory.is_some(),
             !self.fail_below.is_empty(),
             self.raw.is_some(),
@@ -122,6 +127,7 @@ impl Flags {
             ("--stats", &self.stats),
             ("--trace", &self.trace),
             ("--rays", &self.rays),
+            ("--maps", &self.maps),
         ];
         named.into_iter().filter_map(|(flag, path)| Some((flag, path.as_deref()?))).collect()
     }
@@ -171,6 +177,14 @@ fn folder(text: OsString) -> Result<PathBuf, String> {
         Ok(path)
     } else {
         Err("there is no such folder; name one that is there".to_owned())
+    }
+}
+
+fn layers(text: OsString) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(end) if end.eq_ignore_ascii_case("exr") || end.eq_ignore_ascii_case("npy") => Ok(path),
+        _ => Err("the maps are floats; give them a name that ends in .exr or .npy".to_owned()),
     }
 }
 

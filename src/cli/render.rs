@@ -7,7 +7,9 @@ use std::time::Instant;
 
 use gelray::Error;
 use gelray::error::Blame;
-use gelray::formats::pictures::ray_map_beside;
+use gelray::formats::pictures::{layers_beside, ray_map_beside};
+use gelray::formats::whole::Whole;
+use gelray::measure::first_hits::{self, FirstHits, first_hits};
 use gelray::renderer::{Rendered, Renderer};
 use gelray::scene::{Scene, Source};
 use gelray::schedule::Ran;
@@ -52,6 +54,7 @@ pub const TAKES: &[&str] = &[
     "--stats",
     "--trace",
     "--rays",
+    "--maps",
     "--max-memory",
 ];
 
@@ -76,7 +79,11 @@ pub fn run(
     progressive.check()?;
     let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
     let interrupt = Interrupt::listen();
-    let mut scene = accuracy.calibrate(load(&source, flags)?, &interrupt, flags)?;
+    let scene = load(&source, flags)?;
+    if flags.maps.is_some() {
+        first_hits::check(&scene.world)?;
+    }
+    let mut scene = accuracy.calibrate(scene, &interrupt, flags)?;
     accuracy.state(&mut scene.world);
     let loaded = start.elapsed().as_secs_f64();
     let telling = telling_notes(&scene.name, &scene.resolved, flags, None);
@@ -130,7 +137,18 @@ fn encoded(
         let size = array.layout.size.map(|n| n * POSITIONS);
         results.keep(ray_map_beside(path, size, &array.ray_map())?);
     }
+    if let Some(path) = &flags.maps {
+        results.keep(maps(path, &first_hits(&scene.world)?)?);
+    }
     Ok((results, start.elapsed().as_secs_f64()))
+}
+
+/// Depth, normal and entity of what each pixel shows first, as layers of floats.
+fn maps(path: &Path, hits: &FirstHits) -> Result<Whole, Error> {
+    let axis = |axis: usize| hits.normal.iter().map(|normal| normal[axis]).collect();
+    let entity = hits.entity.iter().map(|number| *number as f32).collect();
+    let layers = [("Z", hits.depth.clone()), ("N.X", axis(0)), ("N.Y", axis(1)), ("N.Z", axis(2))];
+    layers_beside(path, hits.size, &[&layers[..], &[("entity", entity)]].concat())
 }
 
 /// Reads a scene with the changes that flags ask for, and says what was guessed or replaced.

@@ -121,6 +121,57 @@ impl Default for BoundingBox {
     }
 }
 
+/// Three axes with ticks and values along edges of the box that all volumes lie in, as rods that stand in the gel.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Axes {
+    /// How far ticks are apart, world units, above 0; default: the roundest of which three or more fit in the longest side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub step_mm: Option<f64>,
+    /// What a world unit is called.
+    pub unit: String,
+    /// Color of rods and letters.
+    pub color: Color,
+    /// How thick rods are, world units, above 0; default: a three-hundredth of the box's diagonal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub width_mm: Option<f64>,
+    /// Height of letters, pixels; default: a thirty-sixth of the picture's height.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 4.0, max = 1000.0))]
+    pub letters_pixels: Option<f32>,
+}
+
+impl Default for Axes {
+    fn default() -> Self {
+        let unit = "mm".to_owned();
+        Self { step_mm: None, unit, color: GRAY, width_mm: None, letters_pixels: None }
+    }
+}
+
+/// A cube in a corner of the picture that is turned as the world is, with the first letter of left, right, anterior,
+/// posterior, superior and inferior on its sides.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct OrientationCube {
+    /// Where it stands.
+    pub corner: Corner,
+    /// Color of its sides.
+    pub color: Color,
+    /// Its diagonal, pixels; default: an eighth of the picture's height.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 8.0, max = 4000.0))]
+    pub size_pixels: Option<f32>,
+}
+
+impl Default for OrientationCube {
+    fn default() -> Self {
+        let color = Color(glam::Vec3::splat(0.7));
+        Self { corner: Corner::BottomLeft, color, size_pixels: None }
+    }
+}
+
 /// A corner of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -28,7 +28,9 @@ pub use classify::{Classify, Contour, Form, Level, MixtureMaterial, Tissue, Tran
 pub use clip::Clip;
 pub use color::Color;
 pub use estimate::Estimate;
-pub use furniture::{BoundingBox, Callout, Corner, Legend, LegendEntry, ScaleBar, Title};
+pub use furniture::{
+    Axes, BoundingBox, Callout, Corner, Legend, LegendEntry, OrientationCube, ScaleBar, Title,
+};
 pub use knobs::{Bound, KNOBS, Knob, NO_KNOBS, Setting};
 pub use labels::{Label, Labels};
 pub use light::{CastsShadow, Light, Observer, Shaft, Toward};

@@ -3,6 +3,7 @@
 use hecs::{Component, World};
 
 use crate::light::strength::LightStrength;
+use crate::measure::judged::Judged;
 use crate::polygon::face::Faces;
 use crate::polygon::texture::TexturedBy;
 use crate::view::overlay::Overlay;
@@ -46,6 +47,8 @@ pub fn held(world: &World, stage: &str) -> Option<Held> {
         "pyramid" => bytes(sum(world, Pyramid::bytes)),
         "cast" => cast(world),
         "furnish" => bytes(sum(world, |overlay: &Overlay| of_picture(&overlay.0))),
+        // What a picture is off by is a few numbers.
+        "judge" => bytes(sum(world, |_: &Judged| size_of::<Judged>() as u64)),
         "resample" => bytes(sum(world, |frame: &Frame| of_picture(&frame.0))),
         _ => return None,
     };

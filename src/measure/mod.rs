@@ -5,6 +5,7 @@ pub mod cost;
 #[cfg(feature = "cli")]
 pub mod cost_table;
 pub mod error;
+pub mod first_hits;
 pub mod front;
 pub mod growth;
 pub mod held;

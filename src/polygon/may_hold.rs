@@ -81,9 +81,27 @@ impl MayHold {
     /// And those that the polygons touch which are scan-converted into the volume.
     #[must_use]
     pub(crate) fn with_polygons(mut self, world: &World, volume: &SceneVolume) -> Self {
-        let volumes = volumes(world);
         let mut query = world.query::<&Faces>().with::<(&Voxelize, &Surface)>();
-        for faces in &mut query {
+        self.touch(world, volume, query.iter());
+        self
+    }
+
+    /// And those that any polygons touch: what is traced casts its shadow into the volume too.
+    #[must_use]
+    pub(crate) fn with_casters(mut self, world: &World, volume: &SceneVolume) -> Self {
+        let mut query = world.query::<&Faces>().with::<&Surface>();
+        self.touch(world, volume, query.iter());
+        self
+    }
+
+    fn touch<'a>(
+        &mut self,
+        world: &World,
+        volume: &SceneVolume,
+        polygons: impl Iterator<Item = &'a Faces>,
+    ) {
+        let volumes = volumes(world);
+        for faces in polygons {
             let into = around(&volumes, || faces.middle());
             if into.is_none_or(|into| into.entity != volume.entity) {
                 continue;
@@ -95,7 +113,6 @@ impl MayHold {
                 }
             }
         }
-        self
     }
 
     /// The most bytes that bricks of `T` take, with their table.

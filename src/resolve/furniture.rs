@@ -1,4 +1,4 @@
-//! Furniture that stands in the gel: the rods of bounding boxes and the lines of callouts become faces.
+//! Furniture that stands in the gel: the rods of bounding boxes and axes and the lines of callouts become faces.
 
 use std::sync::Arc;
 
@@ -8,10 +8,13 @@ use hecs::{Entity, World};
 use super::carriers::carriers;
 use super::fault::Fault;
 use super::fill::{fill, fill_from};
-use crate::components::{BoundingBox, Callout, Color, Prism, Surface};
+use crate::components::{Axes, BoundingBox, Callout, Color, Prism, Surface, View};
 use crate::polygon::face::{Face, Faces};
 use crate::polygon::shape::prism;
+use crate::view::axes::{Axis, TICK, axes};
+use crate::view::camera::Camera;
 use crate::view::extent::Extent;
+use crate::view::observer::first_view;
 use crate::volume::scene_volumes::visible;
 
 /// Gives bounding boxes and callouts their faces and surfaces.
@@ -20,8 +23,8 @@ pub(super) fn fill_in(world: &mut World) -> Result<(), Fault> {
         fill_from(world, entity, |callout: &Callout| line(entity, callout))?;
         fill_from(world, entity, |callout: &Callout| Ok(flat(callout.color)))?;
     }
-    let boxes = carriers::<BoundingBox>(world);
-    if boxes.is_empty() {
+    let (boxes, axes) = (carriers::<BoundingBox>(world), carriers::<Axes>(world));
+    if boxes.is_empty() && axes.is_empty() {
         return Ok(());
     }
     let corners = visible(world).into_iter().flat_map(|volume| volume.grid.corners());
@@ -36,7 +39,41 @@ pub(super) fn fill_in(world: &mut World) -> Result<(), Fault> {
         fill(world, entity, (stated.clone(), around), |(stated, around)| Ok(rods(stated, around)))?;
         fill(world, entity, stated, |stated| Ok(flat(stated.color)))?;
     }
+    for entity in axes {
+        let Some(around) = around else {
+            let problem =
+                "are those of volumes, and there is none; state a `volume` or take them away";
+            return Err(Fault::of(entity, "axes", "", problem));
+        };
+        let Some(stated) = super::carriers::get::<Axes>(world, entity) else { continue };
+        let ticked = axes_of(world, &stated, &around);
+        fill(world, entity, (stated.clone(), around, ticked), |(stated, around, ticked)| {
+            Ok(ticks(stated, around, ticked))
+        })?;
+        fill(world, entity, stated, |stated| Ok(flat(stated.color)))?;
+    }
     Ok(())
+}
+
+/// The axes of a box for the first view: where it looks from makes a difference, and how far from does not.
+fn axes_of(world: &World, stated: &Axes, around: &Extent) -> [Axis; 3] {
+    let view = first_view(world).and_then(|entity| super::carriers::get::<View>(world, entity));
+    axes(around, &Camera::new(&view.unwrap_or_default(), around), stated.step_mm)
+}
+
+/// The rods of axes and of their ticks.
+fn ticks(stated: &Axes, around: &Extent, axes: &[Axis; 3]) -> Faces {
+    let diagonal = 2.0 * around.radius();
+    let width = stated.width_mm.unwrap_or(diagonal / 300.0);
+    let tick = diagonal * TICK;
+    let mut faces = Vec::new();
+    for axis in axes {
+        faces.extend(rod(axis.ends[0], axis.ends[1], width));
+        for at in axis.ticks.iter().map(|value| axis.at(*value)) {
+            faces.extend(rod(at, at + axis.out * tick, width));
+        }
+    }
+    Faces(Arc::new(faces))
 }
 
 /// A surface that has its color whatever light falls on it.

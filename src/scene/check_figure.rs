@@ -2,13 +2,16 @@
 
 use super::check::{Check, Wrong, wrong};
 use crate::components::{
-    BoundingBox, Callout, Labels, Legend, Molecule, Projection, ScaleBar, Title,
+    Axes, BoundingBox, Callout, Labels, Legend, Molecule, OrientationCube, Projection, ScaleBar,
+    Title,
 };
 
 impl Check for Title {}
 impl Check for ScaleBar {}
 impl Check for Callout {}
 impl Check for BoundingBox {}
+impl Check for Axes {}
+impl Check for OrientationCube {}
 impl Check for Projection {}
 
 impl Check for Labels {

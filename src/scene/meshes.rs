@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::loading::Loading;
-use crate::components::{Mesh, Space};
+use crate::components::{Color, Mesh, Space};
 use crate::error::Error;
 use crate::formats::meshes::read_mesh;
-use crate::polygon::face::{Face, Faces};
+use crate::polygon::face::{Face, FaceColors, Faces};
+use crate::shared::Shared;
 
 /// Reads every mesh that names a file.
 pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
@@ -16,20 +17,23 @@ pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
         let Some(Mesh { file: Some(file), space, unit_mm, .. }) = loading.get::<Mesh>(entry) else {
             continue;
         };
-        let faces = of_file(loading, entry, &file, space, unit_mm)?;
+        let (faces, colors) = of_file(loading, entry, &file, space, unit_mm)?;
         loading.add(entry, (Faces(Arc::new(faces)),));
+        if !colors.is_empty() {
+            loading.add(entry, (FaceColors(Shared::new(colors)),));
+        }
     }
     Ok(())
 }
 
-/// The triangles of a file, in the world; those without an area are left out and said.
+/// The triangles of a file, in the world, and their colors if it has any; those without an area are left out and said.
 fn of_file(
     loading: &mut Loading,
     entry: usize,
     file: &str,
     space: Option<Space>,
     unit_mm: Option<f64>,
-) -> Result<Vec<Face>, Error> {
+) -> Result<(Vec<Face>, Vec<Color>), Error> {
     let Some(path) = loading.folders.find(file) else {
         let missing = loading.folders.missing(file);
         let problem = format!("{missing}; name its folder as a data folder");
@@ -40,8 +44,8 @@ fn of_file(
     // A triangle takes 50 bytes at the least in a file, and a face of the world four times that.
     loading.afford(bytes.saturating_mul(4))?;
     let read = read_mesh(&path)?;
-    for warning in read.warnings {
-        loading.warn(entry, warning);
+    for warning in &read.warnings {
+        loading.warn(entry, warning.clone());
     }
     let unit = unit_mm.unwrap_or(1.0);
     let world = |v: DVec3| {
@@ -52,11 +56,13 @@ fn of_file(
         }
     };
     let corner = |at: u32| world(read.vertices[at as usize]);
-    let faces: Vec<_> = read
-        .faces
-        .iter()
-        .filter_map(|face| Face::new(vec![face.map(corner).to_vec()]).ok())
-        .collect();
+    let (mut faces, mut colors) = (Vec::new(), Vec::new());
+    for face in &read.faces {
+        if let Ok(made) = Face::new(vec![face.map(corner).to_vec()]) {
+            faces.push(made);
+            colors.extend(read.color(*face));
+        }
+    }
     match read.faces.len() - faces.len() {
         0 => {}
         all if faces.is_empty() => {
@@ -68,5 +74,5 @@ fn of_file(
             format!("{some} of its triangles have no area or vertices that are no numbers, and are left out"),
         ),
     }
-    Ok(faces)
+    Ok((faces, colors))
 }

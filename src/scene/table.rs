@@ -16,9 +16,10 @@ use super::check::Check;
 use super::error::Fault;
 use super::grammar;
 use crate::components::{
-    Animate, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Estimate, KNOBS, Labels,
-    Legend, Level, Light, Material, Mesh, Molecule, Polygon, Projection, Projects, Sampling,
-    ScaleBar, Setting, Shaft, Surface, Texture, Textured, Title, View, Volume, Voxelize,
+    Animate, Axes, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Estimate, KNOBS,
+    Labels, Legend, Level, Light, Material, Mesh, Molecule, OrientationCube, Polygon, Projection,
+    Projects, Sampling, ScaleBar, Setting, Shaft, Surface, Texture, Textured, Title, View, Volume,
+    Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -38,7 +39,7 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 27] = [
+pub(super) static COMPONENTS: [Row; 29] = [
     row::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
@@ -61,6 +62,8 @@ pub(super) static COMPONENTS: [Row; 27] = [
     row::<Legend>("legend", &[]),
     row::<Callout>("callout", &[]),
     row::<BoundingBox>("bounding_box", &[]),
+    row::<Axes>("axes", &[]),
+    row::<OrientationCube>("orientation_cube", &[]),
     row::<View>("view", &[]),
     row::<Sampling>("sampling", &["view"]),
     row::<DepthCue>("depth_cue", &["view"]),

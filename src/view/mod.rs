@@ -1,5 +1,6 @@
 //! Views: the camera and the walk of its rays, the samples on them, how they are composited, and the picture.
 
+pub(crate) mod axes;
 pub mod camera;
 pub mod composite;
 pub mod extent;

@@ -1,6 +1,6 @@
 //! What is drawn over a picture at the picture's resolution: rectangles and letters, in linear light.
 
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::lettering::Line;
 use super::picture::Picture;
@@ -59,6 +59,33 @@ impl Canvas {
         }
     }
 
+    /// A convex polygon, pixels; of each pixel so much is covered as of sixteen points in it lie inside.
+    pub fn convex(&mut self, corners: &[Vec2], color: Vec3) {
+        let low = corners.iter().copied().fold(Vec2::MAX, Vec2::min).max(Vec2::ZERO);
+        let high = corners.iter().copied().fold(Vec2::MIN, Vec2::max);
+        let last = self.size.map(|n| n as f32);
+        let inside = |at: Vec2| {
+            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+            let sides = edges.map(|(p, q)| (*q - *p).perp_dot(at - *p));
+            let (mut left, mut right) = (true, true);
+            sides.for_each(|side| {
+                left &= side >= 0.0;
+                right &= side <= 0.0;
+            });
+            left || right
+        };
+        for y in low.y as i64..high.y.min(last[1]).ceil() as i64 {
+            for x in low.x as i64..high.x.min(last[0]).ceil() as i64 {
+                let point = |i: u8| {
+                    let [dx, dy] = [i % 4, i / 4].map(|n| (f32::from(n) + 0.5) / 4.0);
+                    Vec2::new(x as f32 + dx, y as f32 + dy)
+                };
+                let covered = (0..16).filter(|i| inside(point(*i))).count();
+                self.put([x, y], color, covered as f32 / 16.0);
+            }
+        }
+    }
+
     /// A line of text with its top left corner at a place, pixels.
     pub fn text(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
         line.draw(at, |pixel, covered| self.put(pixel, color, covered));
@@ -68,6 +95,16 @@ impl Canvas {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_convex_polygon_covers_its_area() {
+        let mut canvas = Canvas::new([20, 20]);
+        let corners = [[3.0, 2.0], [15.0, 5.0], [16.0, 14.0], [4.0, 12.0]].map(Vec2::from);
+        canvas.convex(&corners, Vec3::X);
+        let area: f32 = canvas.picture().pixels.iter().map(|pixel| pixel[3]).sum();
+        let twice = corners.iter().zip(corners.iter().cycle().skip(1)).map(|(p, q)| p.perp_dot(*q));
+        assert!((area - twice.sum::<f32>() / 2.0).abs() < 0.5, "{area}");
+    }
 
     #[test]
     fn a_rectangle_covers_its_area_and_nothing_beside_the_canvas() {

@@ -3,6 +3,7 @@
 use glam::Vec2;
 
 use crate::components::{Callout, Color, Corner, Legend, ScaleBar, Title};
+use crate::view::axes::round;
 use crate::view::lettering::{Line, set};
 use crate::view::overlay::Canvas;
 
@@ -10,7 +11,8 @@ use crate::view::overlay::Canvas;
 pub(crate) struct Sheet {
     /// What is drawn on.
     pub canvas: Canvas,
-    size: [f32; 2],
+    /// Pixels across and down.
+    pub size: [f32; 2],
     /// How far each corner is filled, pixels.
     filled: [f32; 4],
 }
@@ -25,12 +27,12 @@ impl Sheet {
     }
 
     /// The height of letters, as stated or else a part of the picture's height.
-    fn letters(&self, stated: Option<f32>, part: f32) -> f32 {
+    pub fn letters(&self, stated: Option<f32>, part: f32) -> f32 {
         stated.unwrap_or((self.size[1] * part).clamp(8.0, 400.0))
     }
 
     /// The place for something of `width` by `height` pixels in a corner: its top left. The place is then taken.
-    fn place(&mut self, corner: Corner, [width, height]: [f32; 2]) -> [f32; 2] {
+    pub fn place(&mut self, corner: Corner, [width, height]: [f32; 2]) -> [f32; 2] {
         let filled = &mut self.filled[corner as usize];
         let margin = self.size[1] * 0.03;
         let y = match corner {
@@ -57,8 +59,7 @@ impl Sheet {
 
     /// A bar with its length over it; a pixel is `pixel` world units wide.
     pub fn scale_bar(&mut self, bar: &ScaleBar, pixel: f64) {
-        let length =
-            bar.length_mm.unwrap_or_else(|| roundest(f64::from(self.size[0]) * pixel / 4.0));
+        let length = bar.length_mm.unwrap_or_else(|| round(f64::from(self.size[0]) * pixel / 4.0));
         let pixels = (length / pixel) as f32;
         let letters = self.letters(bar.letters_pixels, 1.0 / 30.0);
         let line = set(&format!("{length} {}", bar.unit), letters);
@@ -124,12 +125,10 @@ impl Sheet {
     }
 }
 
-/// The greatest of 1, 2 or 5 times a power of ten that is not above `most`.
-fn roundest(most: f64) -> f64 {
-    let power = 10.0_f64.powi(most.log10().floor() as i32);
-    let times = [5.0, 2.0, 1.0].into_iter().find(|times| times * power <= most).unwrap_or(1.0);
-    // As it is written, and not as powers round.
-    format!("{:.0e}", times * power).parse().unwrap_or(power)
+/// A number as it is written beside a tick.
+pub(crate) fn short(value: f64) -> String {
+    let text = format!("{:.6}", value + 0.0);
+    text.trim_end_matches('0').trim_end_matches('.').replace('-', "−")
 }
 
 /// A value in digits enough to tell apart what lies `span` away.
@@ -154,8 +153,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bars_are_of_round_lengths_and_values_are_written_short() {
-        assert_eq!([0.0731, 4.9, 50.0, 999.0].map(roundest), [0.05, 2.0, 50.0, 500.0]);
+    fn values_are_written_short() {
+        assert_eq!([short(-20.0), short(0.25), short(-0.0)], ["−20", "0.25", "0"]);
         assert_eq!([rounded(-160.0, 400.0), rounded(0.25, 0.5)], ["−160", "0.25"]);
     }
 

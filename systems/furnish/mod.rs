@@ -1,16 +1,22 @@
-//! `furnish`: what is written and drawn over a view's picture: titles, scale bars, legends and the text of callouts.
+//! `furnish`: what is written and drawn over a view's picture: titles, scale bars, legends, the text of callouts and axes,
+//! orientation cubes.
 
+mod axes;
 mod layout;
 
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{Callout, Classify, Color, Legend, Name, Order, ScaleBar, Title, View};
+use crate::components::{
+    Axes, Callout, Classify, Color, Legend, Name, Order, OrientationCube, ScaleBar, Title, View,
+};
 use crate::error::Error;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::view::axes::TICK;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::overlay::Overlay;
+use crate::volume::scene_volumes::visible;
 use layout::Sheet;
 
 /// Makes the [`Overlay`] of every view of a scene that states furniture.
@@ -24,6 +30,9 @@ enum Drawn {
     /// With the values and colors of the volume that it is of.
     Legend(Legend, Vec<(f32, Color)>),
     Text(Callout),
+    /// With the box that they are of.
+    Axes(Axes, Extent),
+    Cube(OrientationCube),
 }
 
 #[derive(PartialEq)]
@@ -52,7 +61,9 @@ impl System for Furnish {
     fn plan(world: &World) -> Plan {
         let stated = drawn(world).is_ok_and(|drawn| !drawn.is_empty());
         if !stated {
-            return Plan::absent("no `title`, `scale_bar`, `legend` or `callout` is stated");
+            return Plan::absent(
+                "no `title`, `scale_bar`, `legend`, `callout`, `axes` or `orientation_cube` is stated",
+            );
         }
         let mut views = world.query::<(Entity, &View)>();
         let bytes = |view: &View| view.size.iter().map(|&n| u64::from(n)).product::<u64>() * 16;
@@ -70,15 +81,17 @@ fn drawn(world: &World) -> Result<Vec<Drawn>, Error> {
         Option<&'a Title>,
         Option<&'a Legend>,
         Option<&'a Callout>,
+        (Option<&'a Axes>, Option<&'a OrientationCube>),
     );
     let mut query = world.query::<Stated<'_>>();
     let mut all: Vec<_> = query.iter().collect();
-    all.retain(|(_, _, bar, title, legend, callout)| {
-        bar.is_some() || title.is_some() || legend.is_some() || callout.is_some()
-    });
     all.sort_by_key(|(order, entity, ..)| (order.copied(), *entity));
     let mut drawn = Vec::new();
-    for (_, _, bar, title, legend, callout) in all {
+    let corners = visible(world).into_iter().flat_map(|volume| volume.grid.corners());
+    let around = Extent::of(corners);
+    for (_, _, bar, title, legend, callout, (axes, cube)) in all {
+        drawn.extend(axes.cloned().zip(around).map(|(axes, around)| Drawn::Axes(axes, around)));
+        drawn.extend(cube.cloned().map(Drawn::Cube));
         drawn.extend(bar.cloned().map(Drawn::Bar));
         drawn.extend(title.cloned().map(Drawn::Title));
         drawn.extend(callout.cloned().map(Drawn::Text));
@@ -111,6 +124,12 @@ impl Inputs {
             match drawn {
                 Drawn::Bar(bar) => layout.scale_bar(bar, self.camera.pixel),
                 Drawn::Title(title) => layout.title(title),
+                Drawn::Cube(cube) => layout.cube(cube, &self.camera),
+                Drawn::Axes(stated, around) => {
+                    let axes = crate::view::axes::axes(around, &self.camera, stated.step_mm);
+                    let tick = 2.0 * around.radius() * TICK;
+                    layout.axes(stated, &axes, &self.camera, tick);
+                }
                 Drawn::Legend(legend, colors) => layout.legend(legend, colors),
                 Drawn::Text(callout) => {
                     let [at, from] = [callout.at, callout.from].map(|p| {

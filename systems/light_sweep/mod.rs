@@ -24,9 +24,10 @@ use crate::light::strength::{
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
+use crate::volume::bricks::most_bytes;
 use crate::volume::grid::Grid;
 use crate::volume::layer::{Composite, Coverage, Opacity};
-use crate::volume::scene_volumes::SceneVolume;
+use crate::volume::scene_volumes::{Content, SceneVolume};
 use casters::Casters;
 use columns::Columns;
 use inputs::{Inputs, LitVolume, lit_volumes, reads_buffer, stated_volumes};
@@ -84,11 +85,9 @@ impl System for LightSweep {
             let toward = toward(light, observer::direction(world));
             // What comes through each of several volumes weakens the light in the others.
             let buffer = volumes.len() > 1 || reads_buffer(world, entity);
-            let lit =
-                |v: &SceneVolume| MayHold::of(world, v).with_polygons(world, v).bytes::<u16>();
             let most = volumes
                 .iter()
-                .map(|v| lit(v).saturating_add(most(&v.grid, toward, shadow, buffer)));
+                .map(|v| lit(world, v).saturating_add(most(&v.grid, toward, shadow, buffer)));
             (entity, most.fold(0, u64::saturating_add))
         };
         let makes: Vec<_> = lights.into_iter().map(bytes).collect();
@@ -100,6 +99,17 @@ impl System for LightSweep {
             "`casts_shadow`; only the slices within the bias are kept, since nothing reads a 3D light-strength buffer"
         };
         Plan::of_most(makes, why)
+    }
+}
+
+/// The most bytes of a light's strengths at voxels: those of the volume that may be seen, and those that polygons touch, which
+/// cast their shadow whether they are traced or scan-converted. Of what states no classification nothing is known.
+fn lit(world: &World, volume: &SceneVolume) -> u64 {
+    match volume.content {
+        Content::Clear | Content::Projected => most_bytes::<u16>(volume.size()),
+        Content::Classified | Content::Values | Content::Painted => {
+            MayHold::of(world, volume).with_casters(world, volume).bytes::<u16>()
+        }
     }
 }
 

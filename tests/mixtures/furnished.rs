@@ -69,6 +69,20 @@ fn a_bounding_box_has_twelve_rods_around_all_volumes() {
 }
 
 #[test]
+fn axes_stand_along_the_near_edges_with_a_tick_at_round_values_and_a_cube_in_its_corner() {
+    let world = made(&[&ball(), "[[entity]]\nname = \"axes\"\naxes = { step_mm = 10 }\n", &seen()]);
+    let faces = world.get::<&Faces>(entity(&world, "axes")).unwrap().clone();
+    let volume = entity(&world, "gel");
+    let corners = world.get::<&gelray::volume::grid::Grid>(volume).unwrap().corners();
+    let [low, high] = [f64::min, f64::max]
+        .map(|pick| corners.iter().map(|corner| corner.x).reduce(pick).unwrap());
+    let ticks = (high / 10.0).floor() - (low / 10.0).ceil() + 1.0;
+    assert_eq!(faces.0.len(), 6 * (3 + 3 * ticks as usize));
+    let cube = changed("orientation_cube = { corner = \"bottom-right\" }");
+    assert!(cube.len() > 100 && cube.iter().all(|[x, y]| *x > 160 && *y > 160));
+}
+
+#[test]
 fn a_scene_without_furniture_makes_none_and_a_turn_makes_it_anew() {
     let mut world = stated(&[&ball(), &seen()], &[]);
     assert!(run(&mut world).iter().any(|ran| ran.name == "furnish" && ran.made == 0));

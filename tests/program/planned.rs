@@ -150,6 +150,33 @@ fn the_plan_of_a_volume_of_512_voxels_a_side_is_as_near() {
 }
 
 #[test]
+fn the_plan_of_a_shadow_bounds_that_of_polygons_away_from_the_gel_too() {
+    let place = Place::new();
+    // A speck of gel, and a traced polygon across all the rest of the volume.
+    place.write(
+        "s.toml",
+        "
+[[entity]]
+name = \"speck\"
+volume = { file = \"phantom:ball\" }
+classify = { iso = [{ value = 0.5 }] }
+clip = { box = [[-4, -4, -4], [4, 4, 4]] }
+[[entity]]
+name = \"sheet\"
+polygon = { vertices = [[-31, -31, -10], [31, -31, -10], [31, 31, 10], [-31, 31, 10]] }
+[[entity]]
+name = \"key\"
+light = { toward = [0, 0.3, 1] }
+casts_shadow = {}
+",
+    );
+    let (_, most, _) = row(&place.done("plan s.toml -q").out, "light_sweep");
+    place.done("render s.toml -q --size 9x9 -o a.png --stats a.json");
+    let taken = place.json("a.json")["bytes"]["light"].as_u64().unwrap();
+    assert!(taken > 0 && taken <= most, "{taken} of {most}");
+}
+
+#[test]
 fn polygons_that_were_read_are_in_the_plan() {
     let place = Place::new();
     let triangle = "[[entity]]\npolygon = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }\n";

@@ -72,6 +72,17 @@ fn checked(triangles: Triangles) -> Result<Triangles, String> {
         Some(at) => Err(format!(
             "its triangle {at} (from 0) names a vertex beyond its {count}; fetch the file again"
         )),
-        None => Ok(triangles),
+        None => Ok(with_all_colors(triangles)),
     }
+}
+
+/// Leaves colors out that not every vertex has, and says so.
+fn with_all_colors(mut triangles: Triangles) -> Triangles {
+    if !triangles.colors.is_empty() && triangles.colors.len() != triangles.vertices.len() {
+        triangles.colors.clear();
+        let warning =
+            "some of its vertices have no color, and so the colors of the others are left out";
+        triangles.warnings.push(warning.to_owned());
+    }
+    triangles
 }

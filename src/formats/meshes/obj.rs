@@ -1,10 +1,11 @@
-//! Wavefront OBJ: vertices and polygons as lines of text; materials, normals and texture coordinates are not read.
+//! Wavefront OBJ: vertices, their colors, and polygons as lines of text; materials, normals and texture coordinates are not read.
 
 use glam::DVec3;
 
 use super::triangles::{Triangles, add_fan, fans};
+use crate::components::Color;
 
-/// Reads the lines `v x y z` and `f a b c …`; the rest is left out.
+/// Reads the lines `v x y z`, `v x y z r g b` and `f a b c …`; the rest is left out.
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
     let mut triangles = Triangles::default();
     let mut polygons = 0;
@@ -19,6 +20,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
                 let three = number().zip(number()).zip(number());
                 let ((x, y), z) = three.ok_or_else(|| wrong("no vertex of three numbers"))?;
                 triangles.vertices.push(DVec3::new(x, y, z));
+                let color = number().zip(number()).zip(number());
+                triangles.colors.extend(color.map(|((r, g), b)| color_of([r, g, b])));
             }
             Some("f") => {
                 polygon.clear();
@@ -37,6 +40,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
     }
     triangles.warnings.extend(fans(polygons));
     Ok(triangles)
+}
+
+/// The color of sRGB channels that are 0..=1.
+fn color_of(channels: [f64; 3]) -> Color {
+    Color::from_srgb(channels.map(|channel| (channel as f32).clamp(0.0, 1.0)))
 }
 
 /// The vertex of `7`, `7/1` or `7//2`, counted from 1, or of `-1`, counted back from the last.

@@ -1,8 +1,9 @@
-//! PLY, text and binary of either byte order: the vertices and the faces of a file, whatever else it holds.
+//! PLY, text and binary of either byte order: the vertices, their colors and the faces of a file, whatever else it holds.
 
 use glam::DVec3;
 
 use super::triangles::{Triangles, add_fan, fans};
+use crate::components::Color;
 
 /// Lines that a header may have.
 const LONGEST: usize = 4096;
@@ -43,7 +44,7 @@ struct Element {
     properties: Vec<Property>,
 }
 
-/// Reads the vertices' x, y and z, and the faces' lists of vertices.
+/// Reads the vertices' x, y and z, their red, green and blue (sRGB), and the faces' lists of vertices.
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
     let (writing, elements, body) = header(bytes)?;
     let mut source = Source { writing, bytes: body };
@@ -53,6 +54,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
     for element in &elements {
         let at = |name: &str| element.properties.iter().position(|own| own.name == name);
         let place = at("x").zip(at("y")).zip(at("z")).map(|((x, y), z)| [x, y, z]);
+        let channels = at("red").zip(at("green")).zip(at("blue")).map(|((r, g), b)| [r, g, b]);
+        let channels = channels.filter(|_| element.name == "vertex" && place.is_some());
         let list = at("vertex_indices").or(at("vertex_index"));
         // An element has a byte at least, unless it has no property at all.
         if element.count > source.bytes.len() {
@@ -60,12 +63,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
         }
         for _ in 0..element.count {
             let mut point = DVec3::ZERO;
+            let mut srgb = [0.0; 3];
             for (number, property) in element.properties.iter().enumerate() {
                 source.values(property, &mut values)?;
                 if element.name == "vertex"
                     && let Some(axis) = place.and_then(|p| p.iter().position(|&at| at == number))
                 {
                     point[axis] = values.first().copied().unwrap_or(f64::NAN);
+                }
+                if let Some(channel) = channels.and_then(|c| c.iter().position(|&at| at == number))
+                {
+                    let value = values.first().copied().unwrap_or(0.0) / property.kind.white();
+                    srgb[channel] = (value as f32).clamp(0.0, 1.0);
                 }
                 if element.name == "face" && list == Some(number) {
                     let polygon: Option<Vec<u32>> =
@@ -78,6 +87,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
             }
             if element.name == "vertex" && place.is_some() {
                 triangles.vertices.push(point);
+                triangles.colors.extend(channels.map(|_| Color::from_srgb(srgb)));
             }
         }
     }
@@ -196,6 +206,15 @@ impl Number {
             "double" | "float64" => Self::F64,
             _ => return None,
         })
+    }
+
+    /// What a channel of full intensity is written as.
+    fn white(self) -> f64 {
+        match self {
+            Self::F32 | Self::F64 => 1.0,
+            Self::I16 | Self::U16 | Self::I32 | Self::U32 => 65535.0,
+            Self::I8 | Self::U8 => 255.0,
+        }
     }
 
     fn bytes(self) -> usize {

@@ -135,3 +135,21 @@ proptest! {
         consistent(name, &bytes);
     }
 }
+
+#[test]
+fn triangles_have_the_mean_of_the_colors_of_their_vertices() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        read_mesh(&path).unwrap()
+    };
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 255 255\n3 0 1 2\n";
+    let obj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 1 1\nf 1 2 3\n";
+    for triangles in [read("a.ply", ply), read("a.obj", obj)] {
+        let color = triangles.color(triangles.faces[0]).unwrap().0;
+        assert!(color.abs_diff_eq(glam::Vec3::new(1.0, 2.0, 1.0) / 3.0, 1e-6), "{color}");
+    }
+    let partly = read("b.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 1 1\nf 1 2 3\n");
+    assert!(partly.colors.is_empty() && partly.warnings[0].contains("no color"));
+}

@@ -3,16 +3,28 @@
 use glam::DVec3;
 
 use super::super::stream::room;
+use crate::components::Color;
 
 /// Triangles of a file, in its own coordinates.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Triangles {
     /// Points, in the file's order.
     pub vertices: Vec<DVec3>,
+    /// The color of each vertex; empty where the file states none.
+    pub colors: Vec<Color>,
     /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
     pub faces: Vec<[u32; 3]>,
     /// Sentences about what was left out or taken apart.
     pub warnings: Vec<String>,
+}
+
+impl Triangles {
+    /// The color of a triangle: the mean of its corners', in linear light; `None` where vertices have none.
+    #[must_use]
+    pub(crate) fn color(&self, face: [u32; 3]) -> Option<Color> {
+        let [a, b, c] = face.map(|at| self.colors.get(at as usize).map(|color| color.0));
+        Some(Color((a? + b? + c?) / 3.0))
+    }
 }
 
 /// Adds a polygon as a fan of triangles around its first vertex.

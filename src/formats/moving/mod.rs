@@ -9,7 +9,7 @@ mod dither;
 pub mod ffmpeg;
 mod format;
 pub mod gif;
-mod opaque;
+pub(crate) mod opaque;
 mod palette;
 pub mod y4m;
 

@@ -1,17 +1,40 @@
-//! JPEG: read only, as sRGB, turned the way its camera was held. Its losses have no place in measured pictures.
+//! JPEG, as sRGB, turned the way its camera was held. Written it is opaque, over black, and of no use to measure.
 
 use std::io::Cursor;
 
-use image::codecs::jpeg::JpegDecoder;
-use image::{DynamicImage, ImageDecoder, Limits};
+use image::codecs::jpeg::{JpegDecoder, JpegEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, Limits};
 
-use super::encoded::{Alpha, from_codes};
-use super::{MOST_PIXELS, PictureFormat, checked_size, whole, wrong};
+use super::encoded::{Alpha, from_codes, to_bytes};
+use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
+use crate::formats::moving::opaque::over_black;
+use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
-/// Read, not written.
-pub(crate) const FORMAT: PictureFormat =
-    PictureFormat { name: "JPEG", extensions: &["jpg", "jpeg"], read: Some(read), write: None };
+/// Of 100: losses are under what an eye sees.
+const QUALITY: u8 = 95;
+
+/// Read and written.
+pub(crate) const FORMAT: PictureFormat = PictureFormat {
+    name: "JPEG",
+    extensions: &["jpg", "jpeg"],
+    read: Some(read),
+    write: Some(write),
+};
+
+/// Writes color in eight bits, over black where the picture is clear; notes are left out.
+pub fn write(sink: &mut dyn Sink, picture: &Picture, _: &Notes) -> Result<(), Failure> {
+    let [width, height] = picture.size.map(u32::try_from);
+    let codes = over_black(&to_bytes(picture));
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, QUALITY).encode(
+        codes.as_flattened(),
+        width?,
+        height?,
+        ExtendedColorType::Rgb8,
+    )?;
+    Ok(sink.write_all(&bytes)?)
+}
 
 /// Reads grey and colour, baseline and progressive, opaque.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {

@@ -10,6 +10,7 @@ pub mod exr;
 mod exr_blocks;
 mod format;
 pub mod jpeg;
+mod layers;
 pub mod npy;
 pub mod png;
 mod ray_map;
@@ -28,6 +29,7 @@ use crate::view::picture::Picture;
 
 pub(crate) use format::{MOST_PIXELS, checked_size, whole, wrong};
 pub use format::{Notes, PictureFormat, Reader, Writer};
+pub use layers::{PixelLayer, layers_beside};
 pub use ray_map::{ray_map_beside, write_ray_map};
 
 /// Every known format of pictures.

@@ -13,17 +13,20 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 /// Writes the array; its header fills a multiple of 64 bytes, as NumPy's own do.
 pub fn write(sink: &mut dyn Sink, picture: &Picture, _: &Notes) -> Result<(), Failure> {
     let [width, height] = picture.size;
-    let header =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}, 4), }}");
-    let length = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - MAGIC.len() - 4;
-    sink.write_all(MAGIC)?;
-    sink.write_all(&[1, 0])?;
-    sink.write_all(&(length as u16).to_le_bytes())?;
-    writeln!(sink, "{header:<0$}", length - 1)?;
+    sink.write_all(&header(&format!("({height}, {width}, 4)")))?;
     for pixel in picture.pixels.iter() {
         sink.write_all(pixel.map(f32::to_le_bytes).as_flattened())?;
     }
     Ok(())
+}
+
+/// The beginning of an array of floats of a shape as Python writes it, in C order.
+pub(super) fn header(shape: &str) -> Vec<u8> {
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
+    let length = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - MAGIC.len() - 4;
+    let mut bytes = [MAGIC, &[1, 0], &(length as u16).to_le_bytes()].concat();
+    bytes.extend(format!("{header:<0$}\n", length - 1).into_bytes());
+    bytes
 }
 
 /// Reads the array, of versions 1 to 3 of the format.

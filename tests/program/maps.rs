@@ -1,0 +1,58 @@
+//! `--maps`: depth, normal and entity of what is seen first, as layers of floats.
+
+use super::Place;
+
+/// A ball of gel before a polygon.
+const SCENE: &str = "
+[[entity]]
+name = \"wall\"
+polygon = { vertices = [[-20, 30, -20], [20, 30, -20], [20, 30, 20], [-20, 30, 20]] }
+[[entity]]
+name = \"ball\"
+volume = { file = \"phantom:ball\" }
+classify = { iso = [{ value = 0.5 }] }
+[[entity]]
+name = \"eye\"
+view = { size = [60, 60], height_mm = 60, focal_point = [0, 0, 0] }
+";
+
+/// The layers of a pixel.
+fn pixel(array: &[u8], [x, y]: [usize; 2]) -> [f32; 5] {
+    let values = array[128..].as_chunks::<4>().0;
+    std::array::from_fn(|layer| f32::from_le_bytes(values[(y * 60 + x) * 5 + layer]))
+}
+
+#[test]
+fn a_pixel_has_the_depth_the_normal_and_the_entity_that_it_shows_first() {
+    let place = Place::new();
+    place.write("s.toml", SCENE);
+    place.done("render s.toml -q -o a.png --maps a.npy");
+    let maps = place.read("a.npy");
+    assert!(String::from_utf8_lossy(&maps[..128]).contains("(60, 60, 5)"));
+    // The observer stands at -y: the wall's depth is its y, and it faces -y.
+    assert_eq!(pixel(&maps, [12, 12]), [30.0, 0.0, -1.0, 0.0, 1.0]);
+    let [depth, .., entity] = pixel(&maps, [1, 1]);
+    assert!(depth.is_nan() && entity == 0.0);
+    // The ball: nearer in its middle, and its normals point away from its middle.
+    let [middle, x, y, z, entity] = pixel(&maps, [30, 30]);
+    assert!(entity == 2.0 && y < -0.99 && x.abs() < 0.1 && z.abs() < 0.1, "{middle} {x} {y} {z}");
+    for (at, [x, z]) in [([38, 30], [8.5, -0.5]), ([25, 36], [-4.5, -6.5]), ([30, 20], [0.5, 9.5])]
+    {
+        let [depth, nx, ny, nz, entity] = pixel(&maps, at);
+        let radius = (x * x + z * z + depth * depth).sqrt();
+        assert!(entity == 2.0 && (radius - middle.abs()).abs() < 0.7, "{at:?} {radius} {middle}");
+        let along = (nx * x + ny * depth + nz * z) / radius;
+        assert!(along > 0.98, "{at:?} {along}");
+    }
+}
+
+#[test]
+fn maps_of_a_picture_are_layers_of_an_exr_by_the_file_s_name() {
+    let place = Place::new();
+    place.done("render cross.toml -q -o a.png --maps a.exr");
+    let text = String::from_utf8_lossy(&place.read("a.exr")).into_owned();
+    for name in ["N.X", "N.Y", "N.Z", "Z", "entity"] {
+        assert!(text.contains(&format!("{name}\0")), "{name}");
+    }
+    place.refused("render cross.toml -q -o a.png --maps a.png", 2, &[".exr or .npy"]);
+}
