@@ -5,14 +5,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use gelray::components::View;
+use gelray::components::{Estimate, View};
 use gelray::formats::pictures::encoded::to_bytes;
 use gelray::formats::pictures::{read_picture, write_picture};
 use gelray::scene::{EMBEDDED, Source, load};
 use gelray::schedule::{Job, Schedule, Watch};
 use gelray::systems::JOBS;
 use gelray::view::picture::{Frame, Picture};
-use hecs::World;
+use hecs::{Entity, World};
 
 /// The longest side of a golden, in pixels.
 const LONGEST: u32 = 96;
@@ -109,6 +109,7 @@ entity = [
     { name = "ball", volume = { file = "phantom:ball" }, classify = { iso = [{ value = 0.5 }] } },
     { polygon = { vertices = [[0, 0, 28], [9, 0, 28], [0, 9, 28]] } },
     { light = { toward = [0, 0, 1] }, casts_shadow = {} },
+    { title = { text = "a" } },
     { view = { size = [8, 8] } },
 ]
 "#;
@@ -130,6 +131,8 @@ fn a_system_reads_the_products_that_it_names_and_no_other() {
         (name, world)
     }));
     for (name, mut world) in worlds {
+        let view = world.query::<Entity>().with::<&View>().iter().next().unwrap();
+        world.insert_one(view, Estimate::default()).unwrap();
         Schedule::new(JOBS).unwrap().run(&mut world, &Watch::default()).unwrap();
         for job in JOBS {
             let others = JOBS.iter().map(|other| other.makes);
