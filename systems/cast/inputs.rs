@@ -13,6 +13,7 @@ use crate::light::strength::LightStrength;
 use crate::light::strength::ProjectedBy;
 use crate::polygon::face::{FaceColors, Faces};
 use crate::polygon::texture::TexturedBy;
+use crate::schedule::ProductKey;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::volume::coefficients::Coefficients;
@@ -21,6 +22,15 @@ use crate::volume::grid::{Grid, Scalars};
 use crate::volume::pyramid::Pyramid;
 use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{self, SceneVolume, around, volumes, with_content};
+
+/// The products that [`Inputs::of`] reads: those of whoever casts rays.
+pub(super) const READS: [ProductKey; 5] = [
+    ProductKey::of::<Gel>(),
+    ProductKey::of::<Coefficients>(),
+    ProductKey::of::<Pyramid>(),
+    ProductKey::of::<LightStrength>(),
+    ProductKey::of::<Ranges>(),
+];
 
 /// What the rays of a view meet.
 #[derive(PartialEq)]

@@ -6,13 +6,12 @@ use rayon::prelude::*;
 
 use super::caster::BeamCaster;
 use super::exact_pixel::exact_pixel;
-use super::inputs::Inputs;
+use super::inputs::{self, Inputs};
 use super::media::Media;
 use super::rays::{self, Errand};
 use super::targets::Caster;
 use crate::components::{DepthCue, Estimate, Sampling, View};
 use crate::error::Error;
-use crate::light::strength::LightStrength;
 use crate::measure::judged::{ANYWHERE, ExactPixel, Judged, ROUND};
 use crate::measure::survey::{Drawn, Survey};
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
@@ -22,10 +21,6 @@ use crate::view::extent::Extent;
 use crate::view::overlay::Overlay;
 use crate::view::picture::{Frame, Picture};
 use crate::view::samples::{Counts, Layout, Samples};
-use crate::volume::coefficients::Coefficients;
-use crate::volume::gel::Gel;
-use crate::volume::pyramid::Pyramid;
-use crate::volume::ranges::Ranges;
 
 /// Samples lie so many times closer where a pixel is cast exactly.
 const FINER: f64 = 4.0;
@@ -57,16 +52,12 @@ struct Case {
 impl System for Judge {
     type Product = Judged;
     const NAME: &'static str = "judge";
-    const READS: &'static [ProductKey] = &[
-        ProductKey::of::<Gel>(),
-        ProductKey::of::<Coefficients>(),
-        ProductKey::of::<Pyramid>(),
-        ProductKey::of::<LightStrength>(),
-        ProductKey::of::<Ranges>(),
-        ProductKey::of::<Samples>(),
-        ProductKey::of::<Overlay>(),
-        ProductKey::of::<Frame>(),
-    ];
+    const READS: &'static [ProductKey] = &{
+        let [gel, coefficients, pyramid, strength, ranges] = inputs::READS;
+        let (samples, overlay) = (ProductKey::of::<Samples>(), ProductKey::of::<Overlay>());
+        let frame = ProductKey::of::<Frame>();
+        [gel, coefficients, pyramid, strength, ranges, samples, overlay, frame]
+    };
 
     fn run(world: &World, out: &mut Outbox<'_, Judged>) -> Result<(), Error> {
         type Seen<'a> = (&'a View, &'a Sampling, &'a Extent, Option<&'a DepthCue>);

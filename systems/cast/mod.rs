@@ -42,16 +42,11 @@ use hecs::{Entity, World};
 
 use crate::components::{DepthCue, Sampling, View};
 use crate::error::Error;
-use crate::light::strength::LightStrength;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::samples::{Layout, Samples};
 use crate::view::viewer::Viewer;
-use crate::volume::coefficients::Coefficients;
-use crate::volume::gel::Gel;
-use crate::volume::pyramid::Pyramid;
-use crate::volume::ranges::Ranges;
 use adaptive::Refinement;
 use caster::BeamCaster;
 use inputs::Inputs;
@@ -67,13 +62,7 @@ pub(crate) struct Cast;
 impl System for Cast {
     type Product = Samples;
     const NAME: &'static str = "cast";
-    const READS: &'static [ProductKey] = &[
-        ProductKey::of::<Gel>(),
-        ProductKey::of::<Coefficients>(),
-        ProductKey::of::<Pyramid>(),
-        ProductKey::of::<LightStrength>(),
-        ProductKey::of::<Ranges>(),
-    ];
+    const READS: &'static [ProductKey] = &inputs::READS;
 
     fn run(world: &World, out: &mut Outbox<'_, Samples>) -> Result<(), Error> {
         let watch = out.watch();
