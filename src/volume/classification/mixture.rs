@@ -51,10 +51,9 @@ impl Mixture {
         weighted_mean(self.probabilities(f).map(|(p, part)| (p * part.opacity, part.color)))
     }
 
-    /// Whether a material may be seen at scalars from `low` to `high`: 1, else 0.
-    #[inline]
-    pub fn show<const N: usize>(&self, [low, high]: [&[f64; N]; 2], shown: &mut [u64; N]) {
-        self.0.iter().for_each(|part| part.risen.show(low, high, shown));
+    /// The scalars at which each material may be seen.
+    pub fn risen(&self) -> impl Iterator<Item = &Risen> {
+        self.0.iter().map(|part| &part.risen)
     }
 
     /// The values outside of which the opacity is surely 0.

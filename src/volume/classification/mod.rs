@@ -106,14 +106,26 @@ impl Classifier {
         let mut shown = [0; N];
         match &self.how {
             How::Contours(contours) => contours.show([&low, &high, steepest], &mut shown),
-            How::Regions(regions) => regions.show([&low, &high, steepest], &mut shown),
-            How::Transfer(transfer) => transfer.show([&low, &high, steepest], &mut shown),
-            How::Mixture(mixture) => mixture.show([&low, &high], &mut shown),
+            How::Regions(regions) => regions.risen().show(&low, &high, &mut shown),
+            How::Transfer(transfer) => transfer.risen().show(&low, &high, &mut shown),
+            How::Mixture(mixture) => {
+                mixture.risen().for_each(|risen| risen.show(&low, &high, &mut shown));
+            }
         }
+        let least = self.least_gradient();
         for n in 0..N {
-            shown[n] &= u64::from(low[n] <= high[n]);
+            shown[n] &= u64::from(low[n] <= high[n]) & u64::from(steepest[n] >= least);
         }
         shown
+    }
+
+    /// No gradient shorter than this shows anything.
+    fn least_gradient(&self) -> f64 {
+        match &self.how {
+            How::Contours(_) | How::Mixture(_) => 0.0,
+            How::Regions(_) => 0.0_f64.next_up(),
+            How::Transfer(transfer) => transfer.factor_from(),
+        }
     }
 
     /// The contours that have no thickness: no opacity is of them, they are met where values cross theirs.

@@ -55,17 +55,9 @@ impl Regions {
         if contrast > 0.0 { alpha * (gg.sqrt() * self.unit / contrast).min(1.0) } else { 0.0 }
     }
 
-    /// Whether a boundary may be seen at scalars from `low` to `high` and gradients no longer than `steepest`: 1, else 0.
-    #[inline]
-    pub fn show<const N: usize>(
-        &self,
-        [low, high, steepest]: [&[f64; N]; 3],
-        shown: &mut [u64; N],
-    ) {
-        self.risen.show(low, high, shown);
-        for n in 0..N {
-            shown[n] &= u64::from(steepest[n] > 0.0);
-        }
+    /// The scalars at which a boundary may be seen, where the gradient is longer than 0.
+    pub fn risen(&self) -> &Risen {
+        &self.risen
     }
 
     /// The two tissues' colours, weighted by what each gives to the opacity.

@@ -47,17 +47,14 @@ impl Transfer {
         }
     }
 
-    /// Whether anything may be seen at scalars from `low` to `high` and gradients no longer than `steepest`: 1, else 0.
-    #[inline]
-    pub fn show<const N: usize>(
-        &self,
-        [low, high, steepest]: [&[f64; N]; 3],
-        shown: &mut [u64; N],
-    ) {
-        self.risen.show(low, high, shown);
-        for n in 0..N {
-            shown[n] &= u64::from(steepest[n] >= self.factor_from);
-        }
+    /// The scalars at which anything may be seen, where the gradient is at least [`factor_from`](Self::factor_from) long.
+    pub fn risen(&self) -> &Risen {
+        &self.risen
+    }
+
+    /// The least gradient magnitude at which anything may be seen; ∞ if there is none.
+    pub fn factor_from(&self) -> f64 {
+        self.factor_from
     }
 
     /// Whether the opacity depends on the gradient.
