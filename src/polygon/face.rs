@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::outline::edges;
 use super::simple;
 use crate::components::Color;
 use crate::shared::Shared;
@@ -120,8 +121,7 @@ fn on_one_line(outline: &[DVec3], center: DVec3) -> bool {
 
 /// Newell's sum: a vector along the normal, as long as twice the area of the outline.
 fn doubled_area(outline: &[DVec3], center: DVec3) -> DVec3 {
-    let next = outline.iter().cycle().skip(1);
-    outline.iter().zip(next).map(|(p, q)| (*p - center).cross(*q - center)).sum()
+    edges(outline).map(|(p, q)| (p - center).cross(q - center)).sum()
 }
 
 #[cfg(test)]

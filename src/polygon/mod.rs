@@ -4,6 +4,7 @@ pub mod arrays;
 pub mod coverage;
 pub mod face;
 pub mod may_hold;
+pub(crate) mod outline;
 pub(crate) mod shape;
 mod simple;
 pub mod texture;

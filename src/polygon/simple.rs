@@ -4,6 +4,8 @@
 
 use glam::{DVec2, DVec3};
 
+use super::outline;
+
 /// An edge of an outline, with the number of the outline and its own.
 struct Edge {
     ends: [DVec2; 2],
@@ -53,8 +55,7 @@ pub(super) fn check(outlines: &[Vec<DVec3>], normal: DVec3) -> Result<(), String
 fn crossing(outlines: &[Vec<DVec2>]) -> Result<(), String> {
     let mut edges: Vec<Edge> = Vec::new();
     for (outline, vertices) in outlines.iter().enumerate() {
-        let next = vertices.iter().cycle().skip(1);
-        let ends = vertices.iter().zip(next).map(|(a, b)| [*a, *b]).enumerate();
+        let ends = outline::edges(vertices).map(|(a, b)| [a, b]).enumerate();
         edges.extend(ends.map(|(edge, ends)| Edge { ends, name: [outline, edge] }));
     }
     let size = edges
@@ -104,8 +105,7 @@ impl Edge {
 
 /// Whether a point lies in an outline, by the crossings of a ray to the right.
 fn holds(outline: &[DVec2], point: DVec2) -> bool {
-    let next = outline.iter().cycle().skip(1);
-    let crossed = outline.iter().zip(next).filter(|(a, b)| {
+    let crossed = outline::edges(outline).filter(|(a, b)| {
         (a.y > point.y) != (b.y > point.y)
             && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x
     });

@@ -13,6 +13,7 @@ use super::projected::ProjectedFace;
 use super::targets::{Crossed, Outlines};
 use crate::components::Sampling;
 use crate::light::strength::LightStrength;
+use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::samples::Layout;
 
@@ -170,8 +171,8 @@ impl Polygons {
         for outline in
             self.faces.iter().filter(|face| wanted(face)).flat_map(ProjectedFace::outlines)
         {
-            for (p, q) in outline.iter().zip(outline.iter().skip(1).chain(outline.first())) {
-                let [p, q] = [*p, *q].map(|window| outlines.square(layout, window));
+            for (p, q) in edges(outline) {
+                let [p, q] = [p, q].map(|window| outlines.square(layout, window));
                 outlines.mark(p, q);
             }
         }

@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::appearance::Appearance;
 use crate::polygon::face::Face;
+use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 
 /// How far outside the bounding box of a polygon a ray is sure to miss it, pixels.
@@ -145,15 +146,15 @@ fn projected(outline: &[DVec3], camera: &Camera) -> Vec<DVec2> {
         return outline.iter().map(|p| camera.project(*p).0).collect();
     }
     let mut kept = Vec::with_capacity(outline.len() + 2);
-    for (p, q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-        if ahead(p) >= 0.0 {
-            kept.push(camera.project(*p).0);
+    for (p, q) in edges(outline) {
+        if ahead(&p) >= 0.0 {
+            kept.push(camera.project(p).0);
         }
-        if (ahead(p) >= 0.0) != (ahead(q) >= 0.0) {
+        if (ahead(&p) >= 0.0) != (ahead(&q) >= 0.0) {
             // From the end that is kept, whichever way the edge runs: polygons that share it cut it at the same point.
-            let (near, far) = if ahead(p) >= 0.0 { (q, p) } else { (p, q) };
-            let part = ahead(far) / (ahead(far) - ahead(near));
-            kept.push(camera.project(far.lerp(*near, part)).0);
+            let (near, far) = if ahead(&p) >= 0.0 { (q, p) } else { (p, q) };
+            let part = ahead(&far) / (ahead(&far) - ahead(&near));
+            kept.push(camera.project(far.lerp(near, part)).0);
         }
     }
     kept
@@ -163,9 +164,9 @@ fn projected(outline: &[DVec3], camera: &Camera) -> Vec<DVec2> {
 fn is_thin(outlines: &[Vec<DVec2>]) -> bool {
     let (mut area, mut length) = (0.0, 0.0);
     for outline in outlines {
-        for (p, q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-            area += p.perp_dot(*q - *p) / 2.0;
-            length += p.distance(*q);
+        for (p, q) in edges(outline) {
+            area += p.perp_dot(q - p) / 2.0;
+            length += p.distance(q);
         }
     }
     area.abs() < THIN * length / 2.0

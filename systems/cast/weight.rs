@@ -6,6 +6,7 @@ use hecs::World;
 use super::targets::Outlines;
 use crate::components::{DepthCue, Sampling, Surface, View, Voxelize};
 use crate::polygon::face::{Face, Faces};
+use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::samples::{Layout, POSITIONS};
@@ -74,8 +75,8 @@ fn opened(traced: &[&Faces], camera: &Camera, layout: &Layout) -> Option<u64> {
     };
     let faces: Vec<&Face> = traced.iter().flat_map(|faces| faces.0.iter()).collect();
     for outline in faces.iter().flat_map(|face| &face.outlines) {
-        for (p, q) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-            mark([*p, *q])?;
+        for (p, q) in edges(outline) {
+            mark([p, q])?;
         }
     }
     meetings(&faces, &mut mark)?;

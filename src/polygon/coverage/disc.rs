@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
+use crate::polygon::outline::edges;
+
 /// The area of disc ∩ polygon; units of the coordinates squared, in 0..=π r², exact at both ends.
 ///
 /// `outlines` is an outline and then its holes, each simple, of at least three vertices, and either way round. A hole
@@ -54,10 +56,6 @@ fn clearance_of_outline(point: DVec2, outline: &[DVec2]) -> (f64, bool) {
         let crossed = (a.y > 0.0) != (b.y > 0.0) && (a.perp_dot(b) > 0.0) == (b.y > a.y);
         (nearest.min((a + along * at).length_squared()), odd != crossed)
     })
-}
-
-fn edges(outline: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> {
-    outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
 }
 
 /// Signed area of the triangle (0, a, b) within the circle of radius `r` about 0; positive counter-clockwise.
