@@ -3,6 +3,7 @@
 use gelray::Renderer;
 use gelray::components::{Sampling, View};
 use gelray::measure::cost::{COLORS, Claim, FRAME, PAPER_NUMBERS, PaperNumber};
+use gelray::measure::median::median;
 use gelray::measure::paired::{Ratio, ratio_of_pairs};
 use gelray::measure::spans::{seconds_of, spanned};
 use gelray::measure::variants;
@@ -156,9 +157,8 @@ fn brute_force(subject: &Subject) -> Result<Ratio, Failure> {
         }
     })?;
     stated.seconds(0.0, &FRAME)?;
-    let mut turned = (0..3).map(|_| stated.seconds(1e-6, &FRAME)).collect::<Result<Vec<_>, _>>()?;
-    turned.sort_by(f64::total_cmp);
-    Ok(exactly(brute.seconds(0.0, &FRAME)? / turned[1]))
+    let turned = (0..3).map(|_| stated.seconds(1e-6, &FRAME)).collect::<Result<Vec<_>, _>>()?;
+    Ok(exactly(brute.seconds(0.0, &FRAME)? / median(&turned)))
 }
 
 fn ratio(pairs: &[[f64; 2]]) -> Result<Ratio, Failure> {

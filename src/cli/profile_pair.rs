@@ -1,10 +1,10 @@
 //! Two profiles beside each other, stage by stage: ratios of runs in pairs, and whether a difference was found.
 
+use gelray::measure::median::median;
 use gelray::measure::paired::{Ratio, ratio_among};
 use serde::Serialize;
 
 use super::profile_saved::{Profile, Stage};
-use super::profile_table::middle;
 use super::table::table;
 
 /// Stages that take less of both runs than this are not compared: nobody waits for them, and each one more that is looked
@@ -68,7 +68,7 @@ impl Beside {
         let pairs: Vec<[f64; 2]> = a.1.iter().zip(b.1).map(|(a, b)| [*a, *b]).collect();
         let ratio = ratio_among(&pairs, count);
         let differs = ratio.is_some_and(|ratio| ratio.differs());
-        let seconds = [a.1, b.1].map(|seconds| middle(seconds));
+        let seconds = [a.1, b.1].map(|seconds| median(seconds));
         Self { name: a.0.clone(), seconds, ratio, differs }
     }
 

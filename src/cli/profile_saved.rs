@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use gelray::measure::cost::paper_costs;
+use gelray::measure::median::median;
 use serde::{Deserialize, Serialize};
 
 use super::failure::Failure;
@@ -90,11 +91,9 @@ impl Stage {
         run: f64,
         (bytes, counts): (u64, Vec<(&str, u64)>),
     ) -> Self {
-        let mut sorted = seconds.clone();
-        sorted.sort_by(f64::total_cmp);
-        let at = |place: usize| sorted.get(place).copied().unwrap_or(0.0);
-        let [median, least, most] =
-            [at(sorted.len() / 2), at(0), at(sorted.len().saturating_sub(1))];
+        let least = seconds.iter().copied().reduce(f64::min).unwrap_or(0.0);
+        let most = seconds.iter().copied().reduce(f64::max).unwrap_or(0.0);
+        let median = median(&seconds);
         let paper = paper_costs(name).next().filter(|_| made > 0 && name != "frame");
         let counts = counts.into_iter().filter(|(_, count)| *count > 0);
         Self {
@@ -128,9 +127,7 @@ impl Profile {
             let sum: f64 = self.stages.iter().filter_map(|stage| stage.seconds.get(at)).sum();
             sum / self.run.seconds[at]
         };
-        let mut parts: Vec<f64> = (0..self.run.seconds.len()).map(of_run).collect();
-        parts.sort_by(f64::total_cmp);
-        parts.get(parts.len() / 2).copied().unwrap_or(0.0)
+        median(&(0..self.run.seconds.len()).map(of_run).collect::<Vec<f64>>())
     }
 
     /// Reads a saved one.

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use gelray::measure::median::median;
+
 use super::bytes::human;
 use super::profile_saved::{Number, Profile, Stage};
 use super::table::table;
@@ -58,19 +60,12 @@ fn row(stage: &Stage) -> [String; 9] {
         format!("{:.4}", stage.median),
         format!("{:.4}–{:.4}", stage.least, stage.most),
         format!("{:.1} %", 100.0 * stage.share),
-        format!("{:.4}", middle(&stage.busy)),
+        format!("{:.4}", median(&stage.busy)),
         if stage.made > 1 { format!("{each:.4}") } else { String::new() },
         counts.collect::<Vec<_>>().join(", "),
         if stage.bytes > 0 { human(stage.bytes) } else { String::new() },
         paper.map_or_else(String::new, |(seconds, what)| format!("{seconds} s {what}")),
     ]
-}
-
-/// The middle one of some numbers.
-pub fn middle(numbers: &[f64]) -> f64 {
-    let mut sorted = numbers.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// A number of the paper: what it is of, ours, its bounds, the paper's.
@@ -98,12 +93,13 @@ pub fn csv(profile: &Profile) -> String {
             .to_owned();
     for stage in profile.stages.iter().chain([&profile.frame, &profile.run]) {
         let counts = stage.counts.iter().map(|(what, count)| format!("{count} {what}"));
+        let busy = median(&stage.busy);
         let Stage { name, made, median, least, most, share, bytes, .. } = stage;
         let paper = stage.paper_seconds.map_or_else(String::new, |seconds| seconds.to_string());
         let _ = writeln!(
             text,
             "{name},{made},{median},{least},{most},{share},{},{bytes},\"{}\",{paper}",
-            middle(&stage.busy),
+            busy,
             counts.collect::<Vec<_>>().join("; ")
         );
     }

@@ -7,6 +7,7 @@ use gelray::components::{Estimate, Sampling, View};
 use gelray::measure::cost::FRAME;
 use gelray::measure::error::{Difference, compare};
 use gelray::measure::judged::Judged;
+use gelray::measure::median::median;
 use gelray::measure::paired::ratio_of_pairs;
 use gelray::scene::Scene;
 use gelray::schedule::Watch;
@@ -113,7 +114,7 @@ impl TradeScene {
         let ratio = ratio_of_pairs(&pairs)
             .ok_or_else(|| Failure::Said("a frame took no time that can be measured".to_owned()))?;
         if is_base {
-            self.milliseconds = seconds.into_iter().map(median).fold(0.0, f64::max);
+            self.milliseconds = seconds.iter().map(|seconds| median(seconds)).fold(0.0, f64::max);
         }
         let is_bounded = ratio.low > 0.0 && ratio.high.is_finite();
         Ok(Point {
@@ -202,12 +203,6 @@ fn worse(a: Difference, b: Difference) -> Difference {
     let mut worst = if b.linear.rmse > a.linear.rmse { b } else { a };
     (worst.linear.max, worst.linear.ssim) = (max, ssim);
     worst
-}
-
-/// The middle one of some numbers.
-pub fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    numbers[numbers.len() / 2]
 }
 
 /// Settings that differ in nothing that is seen.

@@ -2,11 +2,12 @@
 
 use gelray::components::Sampling;
 use gelray::measure::judged::Judged;
+use gelray::measure::median::median;
 
 use super::failure::Failure;
 use super::goal::Goal;
 use super::trade_points::work;
-use super::trade_scene::{TradeScene, median};
+use super::trade_scene::TradeScene;
 
 /// How long the exact pixels may take, in frames.
 const SHARE: f64 = 12.0;
@@ -180,6 +181,6 @@ impl<'a> Bench<'a> {
             let frame = self.traded.frame(0, &Sampling { tolerance, ..sampling.clone() })?;
             seconds.push(frame.seconds * 1e3);
         }
-        Ok(median(seconds))
+        Ok(median(&seconds))
     }
 }

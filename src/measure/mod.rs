@@ -13,6 +13,7 @@ pub mod histogram;
 mod isovalues;
 pub mod judged;
 pub mod kind;
+pub mod median;
 pub mod paired;
 pub mod sigma;
 #[cfg(feature = "cli")]
