@@ -73,6 +73,16 @@ pub fn print_or_write(text: &str, flags: &Flags) -> Result<(), Failure> {
     }
 }
 
+/// Makes a folder, and finds out that files can be written into it.
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let problem =
+            format!("cannot be made ({error}); name a folder whose parent can be written");
+        Error::file(folder, problem)
+    })?;
+    check_writable(&folder.join("index.html"))
+}
+
 /// A file of text, whole or not at all.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Error> {
     write_whole(path, |out| Ok(out.write_all(text.as_bytes())?))

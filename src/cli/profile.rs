@@ -203,22 +203,27 @@ impl Profiling {
         ))
     }
 
-    fn print_one(&self, profile: &Profile, flags: &Flags) -> Result<(), Failure> {
+    /// Prints what was measured in the form that was asked for.
+    fn print<T: serde::Serialize>(
+        &self,
+        measured: &T,
+        [words, csv]: [fn(&T) -> String; 2],
+        flags: &Flags,
+    ) -> Result<(), Failure> {
         let text = match (self.form.json, self.form.csv) {
-            (true, _) => json(profile)?,
-            (_, true) => profile_table::csv(profile),
-            _ => profile_table::words(profile),
+            (true, _) => json(measured)?,
+            (_, true) => csv(measured),
+            _ => words(measured),
         };
         outputs::print_or_write(&text, flags)
     }
 
+    fn print_one(&self, profile: &Profile, flags: &Flags) -> Result<(), Failure> {
+        self.print(profile, [profile_table::words, profile_table::csv], flags)
+    }
+
     fn print_pair(&self, compared: &Compared, flags: &Flags) -> Result<(), Failure> {
-        let text = match (self.form.json, self.form.csv) {
-            (true, _) => json(compared)?,
-            (_, true) => profile_pair::csv(compared),
-            _ => profile_pair::words(compared),
-        };
-        outputs::print_or_write(&text, flags)
+        self.print(compared, [profile_pair::words, profile_pair::csv], flags)
     }
 }
 

@@ -1,8 +1,6 @@
 //! `gelray report`: the figures of the paper, its tables and the trade on one page that needs no network.
 
 use clap::Args;
-use gelray::Error;
-use gelray::formats::whole::check_writable;
 use gelray::scene::{EMBEDDED, Source};
 
 use super::failure::{Failure, tell};
@@ -50,7 +48,7 @@ pub fn run(reporting: &Reporting, flags: &Flags) -> Result<(), Failure> {
     };
     let interrupt = Interrupt::listen();
     interrupt.work_begins();
-    make(&to.join("parts"))?;
+    outputs::make_folder(&to.join("parts"))?;
     let steps = Steps::new(names.len() + 1, flags);
     let (repeat, pairs) = if reporting.quick { (1, 6) } else { (5, 15) };
     let parts = Parts {
@@ -93,7 +91,6 @@ fn figures(parts: &Parts, names: &[String]) -> Result<Vec<(String, String, Figur
 /// The trade of a scene, as part of the page.
 fn trade(parts: &Parts, name: &str, reporting: &Reporting) -> Result<String, Failure> {
     let to = parts.folder.join("trade");
-    make(&to)?;
     let how = if reporting.quick {
         How { repeat: 1, combinations: 4, step: 3, resume: parts.resume }
     } else {
@@ -103,16 +100,6 @@ fn trade(parts: &Parts, name: &str, reporting: &Reporting) -> Result<String, Fai
     let (trade, pictures) =
         traded((&source, 1), &to, &how, (parts.flags, parts.interrupt, parts.steps))?;
     Ok(format!("<h2>Speed against accuracy</h2>\n{}", trade_page::body(&trade, &pictures, &[])))
-}
-
-/// Makes a folder that can be written.
-fn make(folder: &std::path::Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        let problem =
-            format!("cannot be made ({error}); name a folder whose parent can be written");
-        Error::file(folder, problem)
-    })?;
-    check_writable(&folder.join("index.html"))
 }
 
 fn embedded(name: &str) -> Result<String, String> {

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use gelray::Error;
 use gelray::formats::pictures::png_bytes;
-use gelray::formats::whole::check_writable;
 use gelray::scene::Source;
 use gelray::view::picture::Picture;
 
@@ -39,16 +38,6 @@ pub fn folder<'a>(verb: &str, flags: &'a Flags) -> Result<&'a Path, Failure> {
     })
 }
 
-/// Makes a folder that can be written.
-pub fn make(folder: &Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        let problem =
-            format!("cannot be made ({error}); name a folder whose parent can be written");
-        Error::file(folder, problem)
-    })?;
-    check_writable(&folder.join("trade.json"))
-}
-
 /// Measures a scene from so many views, keeps `trade.json` in a folder, and renders what is on the front.
 pub fn traded(
     (source, views): (&Source, u32),
@@ -57,7 +46,7 @@ pub fn traded(
     (flags, interrupt, steps): (&Flags, &Interrupt, &Steps),
 ) -> Result<(Trade, Vec<Shown>), Failure> {
     let scene = render::load(source, flags)?;
-    make(folder)?;
+    outputs::make_folder(folder)?;
     let mut traded = TradeScene::new(scene, views, &interrupt.watch)?;
     bound::check_memory(traded.renderer.schedule(), &traded.scene.world, flags)?;
     interrupt.work_begins();
