@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::components::{OpacityUnit, Order, Sampling, Surface, View, Voxelize};
 use crate::error::Error;
 use crate::polygon::face::{Face, Faces};
+use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::composite::thicken;
 use crate::view::extent::Extent;
@@ -77,14 +78,15 @@ pub fn first_hits(world: &World) -> Result<FirstHits, Error> {
     let spacings = spacings.chain(with_content(world, Content::Painted)).map(|v| v.grid);
     let step = sampling.distance_mm.or_else(|| smallest_spacing(spacings));
     let mut faces = world.query::<(&Faces, &Surface, Option<&Order>)>().without::<&Voxelize>();
+    let camera = Camera::new(view, extent);
     let faces: Vec<Traced> = faces
         .iter()
         .flat_map(|(faces, surface, order)| {
-            let traced = |face: &Face| Traced::new(face, f64::from(surface.opacity), number(order));
+            let opacity = f64::from(surface.opacity);
+            let traced = |face: &Face| Traced::new(face, &camera, opacity, number(order));
             faces.0.iter().map(traced).collect::<Vec<_>>()
         })
         .collect();
-    let camera = Camera::new(view, extent);
     let step = step.unwrap_or(extent.radius());
     Ok(Scene { camera, extent: *extent, step, volumes, faces }.hits())
 }
@@ -116,6 +118,8 @@ struct Traced {
     center: DVec3,
     axes: [DVec3; 2],
     outlines: Vec<Vec<[f64; 2]>>,
+    /// The rows of pixels that it lies in, from the first to the last; infinite where it reaches behind the eye.
+    rows: [f64; 2],
     opacity: f64,
     entity: u32,
 }
@@ -123,7 +127,11 @@ struct Traced {
 impl Scene {
     fn hits(&self) -> FirstHits {
         let size = self.camera.size;
-        let row = |y: usize| (0..size[0]).map(move |x| self.hit([x, y])).collect::<Vec<_>>();
+        // Of a mesh a row of pixels passes by most faces.
+        let row = |y: usize| {
+            let near: Vec<&Traced> = self.faces.iter().filter(|face| face.is_near(y)).collect();
+            (0..size[0]).map(|x| self.hit([x, y], &near)).collect::<Vec<_>>()
+        };
         let hits: Vec<Option<Hit>> = (0..size[1]).into_par_iter().flat_map_iter(row).collect();
         let of = |hit: &Option<Hit>, value: fn(&Hit) -> f32| hit.as_ref().map_or(f32::NAN, value);
         FirstHits {
@@ -137,13 +145,12 @@ impl Scene {
         }
     }
 
-    /// What the middle of a pixel shows first.
-    fn hit(&self, [x, y]: [usize; 2]) -> Option<Hit> {
+    /// What the middle of a pixel shows first; it meets no faces but those `near`.
+    fn hit(&self, [x, y]: [usize; 2], near: &[&Traced]) -> Option<Hit> {
         let ray = self.camera.ray(glam::DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
-        let mut met: Vec<(f64, &Traced)> = self
-            .faces
+        let mut met: Vec<(f64, &Traced)> = near
             .iter()
-            .filter_map(|face| Some((face.depth(&ray)?, face)))
+            .filter_map(|face| Some((face.depth(&ray)?, *face)))
             .filter(|(depth, _)| *depth >= self.camera.nearest())
             .collect();
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -226,7 +233,7 @@ impl Volume {
 }
 
 impl Traced {
-    fn new(face: &Face, opacity: f64, entity: u32) -> Self {
+    fn new(face: &Face, camera: &Camera, opacity: f64, entity: u32) -> Self {
         let axes = face.normal.any_orthonormal_pair();
         let flat = |vertex: &DVec3| {
             let from = *vertex - face.center;
@@ -235,7 +242,14 @@ impl Traced {
         let outlines =
             face.outlines.iter().map(|outline| outline.iter().map(flat).collect()).collect();
         let Face { normal, center, .. } = *face;
-        Self { normal, center, axes: [axes.0, axes.1], outlines, opacity, entity }
+        let rows = rows(face, camera);
+        Self { normal, center, axes: [axes.0, axes.1], outlines, rows, opacity, entity }
+    }
+
+    /// Whether the middles of a row of pixels may meet it.
+    fn is_near(&self, y: usize) -> bool {
+        let middle = y as f64 + 0.5;
+        self.rows[0] <= middle && middle <= self.rows[1]
     }
 
     /// How deep a ray meets it.
@@ -243,11 +257,23 @@ impl Traced {
         let depth = self.normal.dot(self.center - ray.origin) / self.normal.dot(ray.along);
         let from = ray.at(depth) - self.center;
         let [x, y] = self.axes.map(|axis| axis.dot(from));
-        let crosses = |([ax, ay], [bx, by]): (&[f64; 2], &[f64; 2])| {
-            (*ay <= y) != (*by <= y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
+        let crosses = |([ax, ay], [bx, by]): ([f64; 2], [f64; 2])| {
+            (ay <= y) != (by <= y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
         };
-        let edges = self.outlines.iter().flat_map(|o| o.iter().zip(o.iter().cycle().skip(1)));
+        let edges = self.outlines.iter().flat_map(|outline| edges(outline));
         let inside = edges.filter(|edge| crosses(*edge)).count() % 2 == 1;
         (depth.is_finite() && inside).then_some(depth)
     }
+}
+
+/// Between which heights in the window a face lies, pixels, with room for what is rounded.
+fn rows(face: &Face, camera: &Camera) -> [f64; 2] {
+    let vertices = || face.outlines.iter().flatten();
+    if vertices().any(|vertex| camera.depth(*vertex) < camera.nearest()) {
+        return [f64::NEG_INFINITY, f64::INFINITY];
+    }
+    let heights = vertices().map(|vertex| camera.project(*vertex).0.y);
+    let [low, high] = heights
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
+    [low - 0.25, high + 0.25]
 }
