@@ -47,8 +47,11 @@ pub fn held(world: &World, stage: &str) -> Option<Held> {
         "pyramid" => bytes(sum(world, Pyramid::bytes)),
         "cast" => cast(world),
         "furnish" => bytes(sum(world, |overlay: &Overlay| of_picture(&overlay.0))),
-        // What a picture is off by is a few numbers.
-        "judge" => bytes(sum(world, |_: &Judged| size_of::<Judged>() as u64)),
+        "judge" => with(
+            "exact pixels",
+            sum(world, |judged: &Judged| judged.pixels),
+            sum(world, |judged: &Judged| size_of_val(&judged.exact[..]) as u64),
+        ),
         "resample" => bytes(sum(world, |frame: &Frame| of_picture(&frame.0))),
         _ => return None,
     };
