@@ -1,11 +1,13 @@
 //! Files in and out, one format a file; the tables here are where a new format is added.
 
+mod base64;
 mod data_file;
 mod dicom;
 mod loaded;
 mod metaimage;
 mod mrc;
 mod nifti;
+mod npz;
 mod nrrd;
 mod number;
 mod numpy;
@@ -16,6 +18,7 @@ mod stream;
 mod survey;
 mod tiff_stack;
 mod vti;
+mod vtk_file;
 
 #[cfg(test)]
 mod hostile_files;
@@ -105,6 +108,13 @@ pub(crate) static FORMATS: &[Format] = &[
         recognizes: Some(numpy::recognizes),
         read: numpy::read,
         promised: numpy::promised,
+    },
+    Format {
+        name: "NumPy archive",
+        extensions: &["npz"],
+        recognizes: Some(npz::recognizes),
+        read: npz::read,
+        promised: npz::promised,
     },
     Format {
         name: "TIFF",

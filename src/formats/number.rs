@@ -193,6 +193,29 @@ pub(super) fn scalars(
     }
 }
 
+/// Numbers of any type as floats of 64 bits.
+pub(super) fn numbers(
+    source: &mut impl NumberSource,
+    kind: NumberType,
+    count: usize,
+) -> Result<Vec<f64>, String> {
+    fn of<T: Stored>(source: &mut impl NumberSource, count: usize) -> Result<Vec<f64>, String> {
+        Ok(source.array::<T, T>(count)?.into_iter().map(T::wide).collect())
+    }
+    match kind {
+        NumberType::U8 => of::<u8>(source, count),
+        NumberType::I8 => of::<i8>(source, count),
+        NumberType::U16 => of::<u16>(source, count),
+        NumberType::I16 => of::<i16>(source, count),
+        NumberType::U32 => of::<u32>(source, count),
+        NumberType::I32 => of::<i32>(source, count),
+        NumberType::U64 => of::<u64>(source, count),
+        NumberType::I64 => of::<i64>(source, count),
+        NumberType::F32 => of::<f32>(source, count),
+        NumberType::F64 => of::<f64>(source, count),
+    }
+}
+
 /// Four numbers a voxel, RGBA with straight alpha.
 pub(super) fn painted(
     source: &mut impl NumberSource,

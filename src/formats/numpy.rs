@@ -63,6 +63,11 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
     Ok(Loaded { grid, voxels, warnings })
 }
 
+/// Whether an array's header says that it is a volume.
+pub(super) fn holds_volume(stream: &mut Stream) -> bool {
+    Header::read(stream).is_ok()
+}
+
 /// Bytes of the numbers that a header promises.
 pub(super) fn promised(stream: &mut Stream, _: &Path, _: &Stated) -> Result<Promise, String> {
     let header = Header::read(stream)?;

@@ -44,12 +44,13 @@ fn of_file(
     // A triangle takes 50 bytes at the least in a file, and a face of the world four times that.
     loading.afford(bytes.saturating_mul(4))?;
     let read = read_mesh(&path)?;
+    loading.files.extend(read.beside.iter().cloned());
     for warning in &read.warnings {
         loading.warn(entry, warning.clone());
     }
-    let unit = unit_mm.unwrap_or(1.0);
+    let unit = unit_mm.or(read.unit_mm).unwrap_or(1.0);
     let world = |v: DVec3| {
-        unit * match space.unwrap_or(Space::Lps) {
+        unit * match space.or(read.space).unwrap_or(Space::Lps) {
             Space::Lps => v,
             Space::Ras => DVec3::new(-v.x, -v.y, v.z),
             Space::YUp => DVec3::new(v.x, -v.z, v.y),

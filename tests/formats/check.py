@@ -116,6 +116,9 @@ def arrays_of_numpy(folder):
         same(folder / "a.npy", volume(kind), np.eye(4), folder)
         np.save(folder / "a.npy", np.asfortranarray(volume(kind).T))
         same(folder / "a.npy", volume(kind), np.eye(4), folder)
+        for save in [np.savez, np.savez_compressed]:
+            save(folder / "a.npz", line=np.arange(9), voxels=volume(kind))
+            same(folder / "a.npz", volume(kind), np.eye(4), folder)
 
 
 @check("tifffile")
@@ -214,20 +217,77 @@ def a_tilted_gantry_is_sheared_and_not_resampled(folder):
     same(folder, volume(), affine, folder / "..", 1e-3)
 
 
+def drawn(path, folder):
+    """A picture of a mesh, its coordinates taken as the world's whatever its format says of them."""
+    plain = ["--set", "mesh.mesh.space=lps", "--set", "mesh.mesh.unit_mm=1"]
+    run("render", path, "-o", folder / "drawn.npy", "--size", "64x64", "-q", *plain)
+    return np.load(folder / "drawn.npy")
+
+
+def alike(paths, folder):
+    """Meshes are drawn to the same picture, but for coordinates that text has rounded."""
+    pictures = [drawn(path, folder) for path in paths]
+    assert pictures[0][..., 3].max() > 0.9, "nothing is drawn"
+    for path, picture in zip(paths, pictures):
+        apart = np.abs(picture - pictures[0]).max()
+        assert apart < 0.05, f"{path.name} differs by {apart}"
+
+
 @check("trimesh")
 def meshes_of_trimesh_are_drawn_alike(folder):
     import trimesh
 
     mesh = trimesh.creation.icosphere(subdivisions=2, radius=10.0)
-    pictures = []
-    for name in ["ball.stl", "ball_text.stl", "ball.ply", "ball_text.ply", "ball.obj"]:
+    paths = []
+    for name in ["ball.stl", "ball_text.stl", "ball.ply", "ball_text.ply", "ball.obj", "ball.glb", "ball.gltf"]:
         options = {"file_type": "stl_ascii"} if name == "ball_text.stl" else {}
         options |= {"encoding": "ascii"} if name == "ball_text.ply" else {}
-        mesh.export(folder / name, **options)
-        run("render", folder / name, "-o", folder / "ball.npy", "--size", "64x64", "-q", "--set", "mesh.mesh.space=lps")
-        pictures.append(np.load(folder / "ball.npy"))
-    for picture in pictures[1:]:
-        assert np.abs(picture - pictures[0]).max() < 0.05
+        if name == "ball.gltf":
+            for inner, content in trimesh.Scene(mesh).export(file_type="gltf").items():
+                (folder / (name if inner == "model.gltf" else inner)).write_bytes(content)
+        else:
+            mesh.export(folder / name, **options)
+        paths.append(folder / name)
+    alike(paths, folder)
+
+
+@check("vtk")
+def meshes_of_vtk_are_drawn_alike(folder):
+    import vtk
+
+    ball = vtk.vtkSphereSource()
+    ball.SetThetaResolution(24)
+    ball.SetPhiResolution(16)
+    strips = vtk.vtkStripper()
+    strips.SetInputConnection(ball.GetOutputPort())
+    strips.Update()
+    paths = []
+
+    def write(writer, name, output=ball):
+        writer.SetInputData(output.GetOutput())
+        writer.SetFileName(str(folder / name))
+        assert writer.Write() == 1
+        paths.append(folder / name)
+
+    write(vtk.vtkSTLWriter(), "ball.stl")
+    write(vtk.vtkPLYWriter(), "ball.ply")
+    write(vtk.vtkXMLPolyDataWriter(), "strips.vtp", strips)
+    write(vtk.vtkPolyDataWriter(), "strips.vtk", strips)
+    for mode in ["Ascii", "Binary", "Appended"]:
+        for packed in [False, True]:
+            writer = vtk.vtkXMLPolyDataWriter()
+            getattr(writer, f"SetDataModeTo{mode}")()
+            if not packed:
+                writer.SetCompressorTypeToNone()
+            writer.SetEncodeAppendedData(packed)
+            write(writer, f"{mode}{packed}.vtp")
+    for version in [42, 51]:
+        for kind in ["ASCII", "Binary"]:
+            writer = vtk.vtkPolyDataWriter()
+            writer.SetFileVersion(version)
+            getattr(writer, f"SetFileTypeTo{kind}")()
+            write(writer, f"{kind}{version}.vtk")
+    alike(paths, folder)
 
 
 def main():

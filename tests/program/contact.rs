@@ -67,6 +67,13 @@ fn a_mesh_is_drawn_with_y_up_or_as_a_scene_states() {
     assert_eq!(lit("b.png")[0], 0);
     place.done("render foot.toml -o c.png --set mesh.mesh.unit_mm=1000 --set mesh.mesh.space=y-up");
     assert_eq!(lit("c.png"), [above, below]);
+    // The same triangle, in meters, and as PolyData that says nothing of its axes.
+    place.write("foot.gltf", r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"data:;base64,AACAvwAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAA","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}"#);
+    place.done("render foot.gltf -o d.png --size 40x40");
+    assert_eq!(lit("d.png"), [above, below]);
+    place.write("foot.vtk", "# vtk DataFile Version 3.0\nfoot\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n-1 0 0 1 0 0 0 2 0\nPOLYGONS 1 4\n3 0 1 2\n");
+    place.done("render foot.vtk -o e.png --size 40x40 --set mesh.mesh.space=y-up");
+    assert_eq!(lit("e.png"), [above, below]);
     place.refused("render foot.obj -o a.png --iso 3", 2, &["surface already"]);
     place.write(
         "point.ply",

@@ -1,9 +1,12 @@
-//! Files of meshes: triangles as STL, PLY and OBJ have them; the table here is where a new format is added.
+//! Files of meshes: triangles as STL, PLY, OBJ, glTF and VTK have them; the table here is where a new format is added.
 
+mod gltf;
 mod obj;
 mod ply;
 mod stl;
 mod triangles;
+mod vtk;
+mod vtp;
 
 #[cfg(test)]
 mod tests;
@@ -20,8 +23,8 @@ pub struct MeshFormat {
     pub name: &'static str,
     /// How its file names end, in lower case and without the dot.
     pub extension: &'static str,
-    /// Reads the bytes of a file; the error is a sentence without a subject.
-    read: fn(&[u8]) -> Result<Triangles, String>,
+    /// Reads the bytes of a file; the path is that of the file, for a format that names others beside it. The error is a sentence without a subject.
+    read: fn(&[u8], &Path) -> Result<Triangles, String>,
 }
 
 /// The formats of meshes; one more is a file and a row.
@@ -29,6 +32,10 @@ pub(crate) static MESH_FORMATS: &[MeshFormat] = &[
     MeshFormat { name: "STL", extension: "stl", read: stl::read },
     MeshFormat { name: "PLY", extension: "ply", read: ply::read },
     MeshFormat { name: "OBJ", extension: "obj", read: obj::read },
+    MeshFormat { name: "glTF", extension: "gltf", read: gltf::read },
+    MeshFormat { name: "GLB", extension: "glb", read: gltf::read },
+    MeshFormat { name: "VTK PolyData", extension: "vtp", read: vtp::read },
+    MeshFormat { name: "VTK's older PolyData", extension: "vtk", read: vtk::read },
 ];
 
 /// The format of a file by how its name ends.
@@ -38,11 +45,11 @@ pub fn mesh_format(path: &Path) -> Option<&'static MeshFormat> {
     MESH_FORMATS.iter().find(|format| format.extension == end)
 }
 
-/// Reads a mesh of a format in [`MESH_FORMATS`], which its name tells.
+/// Reads a mesh of a format in the table here, which its name tells.
 ///
 /// Every index is one of a vertex, and every vertex is finite. Fails where the file is missing, of no known format, damaged
 /// or without a face; memory is taken in proportion to what the file holds.
-pub(crate) fn read_mesh(path: &Path) -> Result<Triangles, Error> {
+pub fn read_mesh(path: &Path) -> Result<Triangles, Error> {
     let known = || {
         let row = |format: &MeshFormat| format!("{} (.{})", format.name, format.extension);
         MESH_FORMATS.iter().map(row).collect::<Vec<_>>().join(", ")
@@ -52,7 +59,7 @@ pub(crate) fn read_mesh(path: &Path) -> Result<Triangles, Error> {
             format!("its name is of no known format of meshes; expected one of {}", known())
         })?;
         let bytes = Stream::open(path)?.rest()?;
-        checked((format.read)(&bytes)?)
+        checked((format.read)(&bytes, path)?)
     };
     read().map_err(|problem| Error::file(path, problem))
 }

@@ -1,12 +1,14 @@
 //! Wavefront OBJ: vertices, their colors, and polygons as lines of text; materials, normals and texture coordinates are not read.
 
+use std::path::Path;
+
 use glam::DVec3;
 
 use super::triangles::{Triangles, add_fan, fans};
 use crate::components::Color;
 
 /// Reads the lines `v x y z`, `v x y z r g b` and `f a b c …`; the rest is left out.
-pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
+pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
     let mut triangles = Triangles::default();
     let mut polygons = 0;
     let mut polygon = Vec::new();

@@ -1,5 +1,7 @@
 //! PLY, text and binary of either byte order: the vertices, their colors and the faces of a file, whatever else it holds.
 
+use std::path::Path;
+
 use glam::DVec3;
 
 use super::triangles::{Triangles, add_fan, fans};
@@ -45,7 +47,7 @@ struct Element {
 }
 
 /// Reads the vertices' x, y and z, their red, green and blue (sRGB), and the faces' lists of vertices.
-pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
+pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
     let (writing, elements, body) = header(bytes)?;
     let mut source = Source { writing, bytes: body };
     let mut triangles = Triangles::default();

@@ -1,5 +1,7 @@
 //! STL, binary and text: triangles without an order of their vertices in common.
 
+use std::path::Path;
+
 use glam::DVec3;
 
 use super::triangles::{Triangles, reserve};
@@ -10,7 +12,7 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// Reads a file: binary where it is as long as its number of triangles says, else text where it begins so.
-pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
+pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
     let count = bytes.get(80..HEADER).and_then(<[u8]>::first_chunk).copied();
     let count = count.map_or(0, u32::from_le_bytes) as usize;
     let needed = HEADER + count * TRIANGLE;

@@ -1,9 +1,11 @@
 //! Triangles as files of meshes hold them, and polygons taken apart into them.
 
+use std::path::PathBuf;
+
 use glam::DVec3;
 
 use super::super::stream::room;
-use crate::components::Color;
+use crate::components::{Color, Space};
 
 /// Triangles of a file, in its own coordinates.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -14,6 +16,12 @@ pub struct Triangles {
     pub colors: Vec<Color>,
     /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
     pub faces: Vec<[u32; 3]>,
+    /// Which way its axes run, where its format says so.
+    pub space: Option<Space>,
+    /// World units (mm) in one of its units, where its format says so.
+    pub unit_mm: Option<f64>,
+    /// Other files that it names and that were read.
+    pub beside: Vec<PathBuf>,
     /// Sentences about what was left out or taken apart.
     pub warnings: Vec<String>,
 }
@@ -31,6 +39,15 @@ impl Triangles {
 pub(crate) fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
     let Some((&first, rest)) = polygon.split_first() else { return };
     faces.extend(rest.windows(2).map(|pair| [first, pair[0], pair[1]]));
+}
+
+/// Adds a strip: each triangle of three corners in a row, every second one turned over.
+pub(crate) fn add_strip(faces: &mut Vec<[u32; 3]>, corners: &[u32]) {
+    let turned = |(at, three): (usize, &[u32])| match at % 2 {
+        0 => [three[0], three[1], three[2]],
+        _ => [three[1], three[0], three[2]],
+    };
+    faces.extend(corners.windows(3).enumerate().map(turned));
 }
 
 /// The sentence about polygons of more than three corners, if there were any.

@@ -2,23 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::made::zlib;
+use super::super::made::{base64, zlib};
 use super::*;
 use crate::volume::grid::Scalars;
-
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for three in bytes.chunks(3) {
-        let bits =
-            (0..3).fold(0_u32, |bits, at| bits << 8 | u32::from(*three.get(at).unwrap_or(&0)));
-        for at in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * at) & 63) as usize] as char;
-            text.push(if at <= three.len() { letter } else { '=' });
-        }
-    }
-    text
-}
 
 fn voxels_in_bytes() -> Vec<u8> {
     (0..12_i16).flat_map(i16::to_le_bytes).collect()

@@ -1,7 +1,5 @@
 //! VTK ImageData (`.vti`): an image of one piece, its points' values as text, base64 or raw bytes, plain or packed by zlib.
 
-mod blocks;
-mod tags;
 #[cfg(test)]
 mod tests;
 
@@ -9,31 +7,20 @@ use std::path::Path;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::nrrd::words::Words;
-use super::number::{self, Binary, NumberType, Order};
+use super::number::{self, NumberType};
 use super::stream::Stream;
 use super::survey::{Promise, of_size};
+use super::vtk_file::{Tag, VtkFile, before, tag};
 use super::{Loaded, Stated, Voxels};
-use blocks::{Encoding, Written};
-use tags::{Tag, tag};
 
 /// What a file says of its image and of the values of its points.
 struct Header<'b> {
+    file: VtkFile<'b>,
     size: [usize; 3],
     placed: DAffine3,
     kind: NumberType,
     painted: bool,
-    order: Order,
-    /// Bytes of the lengths before packed or binary values.
-    wide: bool,
-    packed: bool,
-    values: Values<'b>,
-}
-
-/// Where the values stand.
-enum Values<'b> {
-    Text(&'b [u8]),
-    Bytes(&'b [u8], Encoding),
+    values: Tag<'b>,
 }
 
 /// Whether a file starts as one of VTK's.
@@ -48,24 +35,11 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
     let header = Header::of(&bytes)?;
     let grid = stated.grid(header.size, header.placed)?;
     let count = grid.voxels();
-    let voxels = match header.values {
-        Values::Text(text) => {
-            let mut stream = Stream::of(text.to_vec());
-            let mut words = Words::new(&mut stream);
-            voxels(&mut words, &header, count)?
-        }
-        Values::Bytes(bytes, encoding) => {
-            let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
-            let width = if header.wide { 8 } else { 4 };
-            let written = Written { encoding, order: header.order, width };
-            let raw = if header.packed {
-                blocks::inflated(bytes, written, count * each)?
-            } else {
-                blocks::plain(bytes, written, count * each)?
-            };
-            let mut stream = Stream::of(raw);
-            voxels(&mut Binary { stream: &mut stream, order: header.order }, &header, count)?
-        }
+    let mut source = header.file.source(&header.values, count * header.bytes_of_voxel())?;
+    let voxels = if header.painted {
+        number::painted(&mut source, header.kind, count)?
+    } else {
+        number::scalars(&mut source, header.kind, count).map(Voxels::Scalars)?
     };
     Ok(Loaded { grid, voxels, warnings: Vec::new() })
 }
@@ -74,34 +48,14 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
 pub(super) fn promised(stream: &mut Stream, _: &Path, _: &Stated) -> Result<Promise, String> {
     let bytes = stream.rest()?;
     let header = Header::of(&bytes)?;
-    let each = header.kind.bytes() * if header.painted { 4 } else { 1 };
-    let voxels = of_size(header.size, each).saturating_mul(2);
+    let voxels = of_size(header.size, header.bytes_of_voxel()).saturating_mul(2);
     Ok((voxels.saturating_add(bytes.len() as u64), Vec::new()))
-}
-
-fn voxels(
-    source: &mut impl number::NumberSource,
-    header: &Header,
-    count: usize,
-) -> Result<Voxels, String> {
-    if header.painted {
-        number::painted(source, header.kind, count)
-    } else {
-        number::scalars(source, header.kind, count).map(Voxels::Scalars)
-    }
 }
 
 impl<'b> Header<'b> {
     fn of(bytes: &'b [u8]) -> Result<Self, String> {
-        let file = tag(bytes, "VTKFile").ok_or("has no `VTKFile`; check that it is one")?;
+        let file = VtkFile::of(bytes)?;
         let image = tag(bytes, "ImageData").ok_or("has no `ImageData`; save the image alone")?;
-        let packed = match file.attribute("compressor").as_deref() {
-            None | Some("") => false,
-            Some("vtkZLibDataCompressor") => true,
-            Some(other) => {
-                return Err(format!("is packed by {other}, and zlib is read; save it with zlib"));
-            }
-        };
         let array = values(image.rest)?;
         let word = array.attribute("type").unwrap_or_default();
         let components = array.attribute("NumberOfComponents").unwrap_or_else(|| "1".to_owned());
@@ -115,20 +69,11 @@ impl<'b> Header<'b> {
             }
         };
         let (size, placed) = place(&image)?;
-        Ok(Self {
-            size,
-            placed,
-            kind: NumberType::named(&word)?,
-            painted,
-            order: if file.attribute("byte_order").as_deref() == Some("BigEndian") {
-                Order::Big
-            } else {
-                Order::Little
-            },
-            wide: file.attribute("header_type").as_deref() == Some("UInt64"),
-            packed,
-            values: payload(&array, bytes)?,
-        })
+        Ok(Self { file, size, placed, kind: NumberType::named(&word)?, painted, values: array })
+    }
+
+    fn bytes_of_voxel(&self) -> usize {
+        self.kind.bytes() * if self.painted { 4 } else { 1 }
     }
 }
 
@@ -165,7 +110,7 @@ fn values(image: &[u8]) -> Result<Tag<'_>, String> {
     let none =
         "its image has no values of points; make point data of its cell data and save it again";
     let points = tag(piece.rest, "PointData").ok_or(none)?;
-    let inner = tags::before(points.rest, b"</PointData").ok_or(none)?;
+    let inner = before(points.rest, b"</PointData").ok_or(none)?;
     let wanted = points.attribute("Scalars");
     let mut first = None;
     let mut rest = inner;
@@ -177,26 +122,4 @@ fn values(image: &[u8]) -> Result<Tag<'_>, String> {
         first = first.or(Some(array));
     }
     first.ok_or_else(|| none.to_owned())
-}
-
-fn payload<'b>(array: &Tag<'b>, file: &'b [u8]) -> Result<Values<'b>, String> {
-    let damaged = "its values do not end; fetch the file again";
-    let own = || tags::before(array.rest, b"<").ok_or(damaged);
-    match array.attribute("format").as_deref() {
-        Some("ascii") => Ok(Values::Text(own()?)),
-        Some("binary") => Ok(Values::Bytes(own()?, Encoding::Base64)),
-        Some("appended") => {
-            let appended = tag(file, "AppendedData").ok_or(damaged)?;
-            let encoding = match appended.attribute("encoding").as_deref() {
-                Some("base64") => Encoding::Base64,
-                _ => Encoding::Raw,
-            };
-            let start = appended.rest.iter().position(|&byte| byte == b'_').ok_or(damaged)?;
-            let offset = array.attribute("offset").and_then(|text| text.trim().parse().ok());
-            let offset: usize = offset.ok_or("its values have no `offset`; save it again")?;
-            let bytes = appended.rest[start + 1..].get(offset..).ok_or(damaged)?;
-            Ok(Values::Bytes(bytes, encoding))
-        }
-        _ => Err("its values state no `format` that is read; save it again".to_owned()),
-    }
 }

@@ -1,7 +1,8 @@
 //! Values of a VTK file as bytes: after their length, or packed by zlib in blocks after a table of lengths.
 
-use super::super::number::Order;
-use super::super::stream::{Stream, room};
+use crate::formats::base64::decoded;
+use crate::formats::number::Order;
+use crate::formats::stream::{Stream, room};
 
 /// How bytes are written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +25,7 @@ impl Written {
     fn first(self, bytes: &[u8], count: usize) -> Result<Vec<u8>, String> {
         match self.encoding {
             Encoding::Raw => bytes.get(..count).map(<[u8]>::to_vec).ok_or_else(truncated),
-            Encoding::Base64 => decoded(bytes, count),
+            Encoding::Base64 => decoded(bytes, count).ok_or_else(truncated),
         }
     }
 
@@ -41,11 +42,11 @@ impl Written {
 /// Bytes of a plain array of `needed` bytes: its length goes before it.
 pub(super) fn plain(bytes: &[u8], written: Written, needed: usize) -> Result<Vec<u8>, String> {
     let width = written.width;
-    let all = written.first(bytes, width + needed)?;
+    let all = written.first(bytes, width.saturating_add(needed))?;
     let [length] = written.lengths(&all[..width])[..] else { return Err(truncated()) };
     if length < needed as u64 {
         return Err(format!(
-            "its values are {length} bytes where its extent needs {needed}; save it again"
+            "its values are {length} bytes where {needed} are needed; save it again"
         ));
     }
     Ok(all[width..].to_vec())
@@ -83,36 +84,6 @@ pub(super) fn inflated(bytes: &[u8], written: Written, needed: usize) -> Result<
         values.extend(more);
     }
     if values.len() < needed { Err(truncated()) } else { Ok(values) }
-}
-
-/// The first `count` bytes of base64, blanks left out; what pads it ends it.
-fn decoded(text: &[u8], count: usize) -> Result<Vec<u8>, String> {
-    if count / 3 > text.len() / 4 + 1 {
-        return Err(truncated());
-    }
-    let mut bytes = Vec::new();
-    room(&mut bytes, count + 3)?;
-    let (mut bits, mut held) = (0_u32, 0);
-    for &letter in text.iter().filter(|letter| !letter.is_ascii_whitespace()) {
-        let six = match letter {
-            b'A'..=b'Z' => letter - b'A',
-            b'a'..=b'z' => letter - b'a' + 26,
-            b'0'..=b'9' => letter - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => break,
-        };
-        bits = bits << 6 | u32::from(six);
-        held += 6;
-        if held >= 8 {
-            held -= 8;
-            bytes.push((bits >> held) as u8);
-        }
-        if bytes.len() == count {
-            return Ok(bytes);
-        }
-    }
-    if bytes.len() < count { Err(truncated()) } else { Ok(bytes) }
 }
 
 fn truncated() -> String {

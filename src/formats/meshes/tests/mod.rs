@@ -1,72 +1,17 @@
 //! Facts about meshes: the same tetrahedron in every format, and files that are not what they say.
 
-use proptest::prelude::*;
+mod sound;
 
 use glam::DVec3;
+use proptest::prelude::*;
 
 use super::*;
-
-const POINTS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
-const SIDES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-
-fn lines(rows: impl Iterator<Item = String>) -> String {
-    rows.map(|row| row + "\n").collect()
-}
-
-fn row(numbers: &[f32]) -> String {
-    numbers.iter().map(f32::to_string).collect::<Vec<_>>().join(" ")
-}
-
-/// The tetrahedron, by format and name.
-fn sound() -> Vec<(&'static str, Vec<u8>)> {
-    let corners = |side: &[usize; 3]| side.map(|at| POINTS[at]);
-    let mut binary = [vec![b' '; 80], 4_u32.to_le_bytes().to_vec()].concat();
-    for side in &SIDES {
-        let numbers = [[0.0; 3]].into_iter().chain(corners(side)).flatten();
-        binary.extend(numbers.flat_map(f32::to_le_bytes));
-        binary.extend([0, 0]);
-    }
-    let facet = |side: &[usize; 3]| {
-        let vertices = lines(corners(side).iter().map(|point| format!("vertex {}", row(point))));
-        format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet")
-    };
-    let text = format!("solid x\n{}endsolid x\n", lines(SIDES.iter().map(facet)));
-    let obj = lines(POINTS.iter().map(|point| format!("v {}", row(point))))
-        + "vn 0 0 1\nf 1/1 3/2 2/3\nf 1//1 2//1 4//1\nf -4 -1 -2\nf 2 3 4\n";
-    let header = |format: &str| {
-        format!(
-            "ply\nformat {format} 1.0\ncomment x\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
-        )
-    };
-    let ply_text = header("ascii")
-        + &lines(POINTS.iter().map(|point| format!("{} 255", row(point))))
-        + &lines(SIDES.iter().map(|[a, b, c]| format!("3 {a} {b} {c}")));
-    let ply = |big: bool| {
-        let float = |n: f32| if big { n.to_be_bytes() } else { n.to_le_bytes() };
-        let int = |n: usize| if big { (n as u32).to_be_bytes() } else { (n as u32).to_le_bytes() };
-        let mut bytes =
-            header(if big { "binary_big_endian" } else { "binary_little_endian" }).into_bytes();
-        for point in POINTS {
-            bytes.extend(point.into_iter().flat_map(float).chain([255]));
-        }
-        for side in SIDES {
-            bytes.extend([3].into_iter().chain(side.into_iter().flat_map(int)));
-        }
-        bytes
-    };
-    vec![
-        ("a.stl", binary),
-        ("b.stl", text.into_bytes()),
-        ("c.obj", obj.into_bytes()),
-        ("d.ply", ply_text.into_bytes()),
-        ("e.ply", ply(false)),
-        ("f.ply", ply(true)),
-    ]
-}
+use crate::components::Space;
+use sound::{POINTS, SIDES, glb, sound};
 
 fn read(name: &str, bytes: &[u8]) -> Result<Triangles, String> {
     let format = mesh_format(Path::new(name)).unwrap();
-    (format.read)(bytes).and_then(checked)
+    (format.read)(bytes, Path::new(name)).and_then(checked)
 }
 
 #[test]
@@ -96,6 +41,16 @@ fn what_is_wrong_is_said() {
         ("a.obj", b"v 0 0 nan\nv 1 1 1\nv 1 1 2\nf 1 2 3\n", "not finite"),
         ("a.stl", b"solid x\nvertex 1 2\n", "line 2"),
         ("a.stl", b"hello", "truncated"),
+        ("a.gltf", b"{", "glTF"),
+        ("a.gltf", b"{\"asset\":{\"version\":\"1.0\"}}", "2.0 is read"),
+        ("a.gltf", b"{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}", "draco"),
+        ("a.gltf", b"{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"children\":[0]}],\"scenes\":[{\"nodes\":[0]}]}", "circle"),
+        ("a.gltf", b"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":1,\"uri\":\"missing.bin\"}]}", "missing.bin"),
+        ("a.vtp", b"<VTKFile><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"></Piece>", "lacks an array"),
+        ("a.vtp", b"<VTKFile><PolyData></PolyData></VTKFile>", "no face"),
+        ("a.vtk", b"hello", "vtk DataFile"),
+        ("a.vtk", b"# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\n", "no PolyData"),
+        ("a.vtk", b"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 99999999 float\n1 2 3\n", "truncated"),
         ("a.ply", b"hello\n", "`ply`"),
         ("a.ply", b"ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nend_header\n0\n", "truncated"),
         ("a.ply", b"ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\nend_header\n3 0 1 2\n", "beyond"),
@@ -124,7 +79,7 @@ proptest! {
 
     #[test]
     fn changed_bytes_never_panic(
-        file in 0..6_usize,
+        file in 0..14_usize,
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
     ) {
         let (name, mut bytes) = sound().swap_remove(file);
@@ -152,4 +107,49 @@ fn triangles_have_the_mean_of_the_colors_of_their_vertices() {
     }
     let partly = read("b.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 1 1\nf 1 2 3\n");
     assert!(partly.colors.is_empty() && partly.warnings[0].contains("no color"));
+}
+
+#[test]
+fn nodes_place_a_mesh_and_a_file_that_places_it_without_end_is_refused() {
+    let nodes =
+        r#""nodes":[{"mesh":0,"translation":[0,0,5],"children":[1]},{"mesh":0,"scale":[-2,2,2]}]"#;
+    let mesh = read("a.glb", &glb(nodes, r#""scenes":[{"nodes":[0]}]"#)).unwrap();
+    assert_eq!((mesh.vertices.len(), mesh.faces.len()), (8, 8));
+    assert_eq!(mesh.vertices[1], DVec3::new(1.0, 0.0, 5.0));
+    assert_eq!(mesh.vertices[5], DVec3::new(-2.0, 0.0, 5.0));
+    // What is mirrored runs the other way around, and stays outside out.
+    assert_eq!((mesh.faces[0], mesh.faces[4]), ([0, 2, 1], [4, 5, 6]));
+    assert_eq!((mesh.space, mesh.unit_mm), (Some(Space::YUp), Some(1000.0)));
+    let copies = vec!["0"; 90_000].join(",");
+    let children = vec![copies; 3].join(",");
+    let nodes = format!(r#""nodes":[{{"mesh":0}},{{"children":[{children}]}}]"#);
+    let problem = read("a.glb", &glb(&nodes, r#""scenes":[{"nodes":[1]}]"#)).unwrap_err();
+    assert!(problem.contains("nodes"), "{problem}");
+}
+
+#[test]
+fn a_factor_of_a_material_colors_what_it_is_on() {
+    let more = r#""materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1]}}]"#;
+    let mesh = read("a.glb", &glb(r#""nodes":[{"mesh":0}]"#, more)).unwrap();
+    let color = mesh.color(mesh.faces[0]).unwrap().0;
+    assert!(color.abs_diff_eq(glam::Vec3::new(0.5, 0.25, 1.0), 1e-6));
+}
+
+#[test]
+fn a_strip_turns_every_second_triangle_and_scalars_of_bytes_are_colors() {
+    let array = |kind: &str, name: &str, width: usize, text: &str| {
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{width}\" format=\"ascii\">{text}</DataArray>"
+        )
+    };
+    let text = format!(
+        "<VTKFile><PolyData><Piece NumberOfPoints=\"4\" NumberOfStrips=\"1\"><PointData Scalars=\"c\">{}</PointData><Points>{}</Points><Strips>{}{}</Strips></Piece></PolyData></VTKFile>",
+        array("UInt8", "c", 3, "255 0 0 255 0 0 255 0 0 255 0 0"),
+        array("Float32", "p", 3, "0 0 0 1 0 0 0 1 0 1 1 0"),
+        array("Int32", "connectivity", 1, "0 1 2 3"),
+        array("Int32", "offsets", 1, "4"),
+    );
+    let mesh = read("a.vtp", text.as_bytes()).unwrap();
+    assert_eq!(mesh.faces, [[0, 1, 2], [2, 1, 3]]);
+    assert_eq!(mesh.color(mesh.faces[1]).unwrap().0, glam::Vec3::X);
 }

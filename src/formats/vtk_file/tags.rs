@@ -2,13 +2,14 @@
 
 /// A tag: what stands in it, and what follows it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Tag<'b> {
+pub struct Tag<'b> {
     inside: &'b [u8],
+    /// What follows it.
     pub rest: &'b [u8],
 }
 
 /// The first tag of that name.
-pub(super) fn tag<'b>(bytes: &'b [u8], name: &str) -> Option<Tag<'b>> {
+pub fn tag<'b>(bytes: &'b [u8], name: &str) -> Option<Tag<'b>> {
     let start = format!("<{name}");
     let mut from = 0;
     loop {
@@ -23,7 +24,7 @@ pub(super) fn tag<'b>(bytes: &'b [u8], name: &str) -> Option<Tag<'b>> {
 }
 
 /// What stands before a word; `None` where it does not stand there.
-pub(super) fn before<'b>(bytes: &'b [u8], word: &[u8]) -> Option<&'b [u8]> {
+pub fn before<'b>(bytes: &'b [u8], word: &[u8]) -> Option<&'b [u8]> {
     find(bytes, word).map(|at| &bytes[..at])
 }
 
@@ -33,7 +34,7 @@ fn find(bytes: &[u8], word: &[u8]) -> Option<usize> {
 
 impl Tag<'_> {
     /// What stands between the quotes after `key=`.
-    pub(crate) fn attribute(&self, key: &str) -> Option<String> {
+    pub fn attribute(&self, key: &str) -> Option<String> {
         let text = String::from_utf8_lossy(self.inside);
         let mut rest: &str = &text;
         loop {

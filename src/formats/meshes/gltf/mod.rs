@@ -1,0 +1,161 @@
+//! glTF 2.0 (`.gltf` with its buffers beside it or in it, `.glb`): the triangles of a scene's nodes, in meters and with y up.
+
+mod accessor;
+mod buffers;
+mod document;
+mod place;
+
+use std::path::Path;
+
+use glam::DMat4;
+
+use super::triangles::{Triangles, add_fan, add_strip, reserve};
+use crate::components::{Color, Space};
+use accessor::{floats, indices};
+use buffers::Buffers;
+use document::{Document, Primitive};
+
+/// Nodes that are looked at: no scene that is drawn here has more, and a graph in a circle has no end.
+const MOST_NODES: usize = 100_000;
+
+/// Vertices and triangles that a byte of a file and its buffers may stand for, by placing a mesh many times; a million always may.
+const MOST_OF_A_BYTE: usize = 16;
+
+/// Reads the triangles that the file's scene places, in the colors of vertices or of materials.
+pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
+    let (text, own) = buffers::chunks(bytes)?;
+    let document: Document = serde_json::from_slice(text)
+        .map_err(|problem| format!("its JSON is not glTF ({problem}); export it again"))?;
+    refuse(&document)?;
+    let mut buffers = Buffers::new(&document, own, path)?;
+    let mut triangles = Triangles {
+        space: Some(Space::YUp),
+        unit_mm: Some(1000.0),
+        beside: std::mem::take(&mut buffers.files),
+        ..Triangles::default()
+    };
+    let held = bytes.len() + buffers.bytes.iter().map(|buffer| buffer.len()).sum::<usize>();
+    let most = held.saturating_mul(MOST_OF_A_BYTE).max(1 << 20);
+    let (mut left_out, mut colored) = (0, false);
+    for (mesh, matrix) in place::placed(&document, MOST_NODES)? {
+        for primitive in &mesh.primitives {
+            match primitive.mode {
+                4..=6 => colored |= add(&mut triangles, &document, &buffers, (primitive, matrix))?,
+                _ => left_out += 1,
+            }
+            if triangles.vertices.len() + triangles.faces.len() > most {
+                return Err("places its meshes so often that they are more than 16 times what the file holds; export it with fewer copies".to_owned());
+            }
+        }
+    }
+    if !colored {
+        triangles.colors.clear();
+    }
+    if left_out > 0 {
+        triangles
+            .warnings
+            .push(format!("{left_out} of its parts are points or lines, and are left out"));
+    }
+    if document.images.as_ref().is_some_and(|images| !images.is_empty()) {
+        triangles
+            .warnings
+            .push("its textures are not read; the factors of its materials color it".to_owned());
+    }
+    Ok(triangles)
+}
+
+/// Says what a file needs that is not read.
+fn refuse(document: &Document) -> Result<(), String> {
+    let version = &document.asset.version;
+    if !version.starts_with("2.") {
+        return Err(format!("is glTF {version}, and 2.0 is read; export it again"));
+    }
+    // These change how a surface looks, and not where it is.
+    let harmless =
+        |name: &&String| !name.starts_with("KHR_materials") && *name != "KHR_texture_transform";
+    match document.extensions_required.iter().find(harmless) {
+        Some(name) => Err(format!(
+            "needs the extension {name}, which is not read; export it without (such as without compression)"
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Adds a primitive's triangles, and whether it states a color.
+fn add(
+    triangles: &mut Triangles,
+    document: &Document,
+    buffers: &Buffers,
+    (primitive, matrix): (&Primitive, DMat4),
+) -> Result<bool, String> {
+    let Some(&positions) = primitive.attributes.get("POSITION") else { return Ok(false) };
+    let points = floats(document, buffers, positions)?;
+    if points.width != 3 {
+        return Err("has positions that are not of three numbers; export it again".to_owned());
+    }
+    let count = points.values.len() / 3;
+    let first = triangles.vertices.len();
+    if u32::try_from(first + count).is_err() {
+        return Err("has more than 2³² vertices; split it".to_owned());
+    }
+    reserve(&mut triangles.vertices, count)?;
+    let point =
+        |three: &[f64]| matrix.transform_point3(glam::DVec3::new(three[0], three[1], three[2]));
+    triangles.vertices.extend(points.values.chunks_exact(3).map(point));
+    let colored = color(triangles, document, buffers, (primitive, count))?;
+    let corners: Vec<u32> = match primitive.indices {
+        Some(accessor) => indices(document, buffers, accessor)?,
+        None => (0..count as u32).collect(),
+    };
+    if corners.iter().any(|&corner| corner as usize >= count) {
+        return Err(
+            "has a triangle that names a vertex it does not have; export it again".to_owned()
+        );
+    }
+    // What is mirrored runs the other way around.
+    let mirrored = matrix.determinant() < 0.0;
+    let faces = faces(&corners, primitive.mode).into_iter().map(|[a, b, c]| {
+        let face = if mirrored { [a, c, b] } else { [a, b, c] };
+        face.map(|corner| corner + first as u32)
+    });
+    triangles.faces.extend(faces);
+    Ok(colored)
+}
+
+/// Triangles of a list (mode 4), a strip (5) or a fan (6).
+fn faces(corners: &[u32], mode: u32) -> Vec<[u32; 3]> {
+    let mut faces = Vec::new();
+    match mode {
+        4 => faces.extend(corners.chunks_exact(3).map(|three| [three[0], three[1], three[2]])),
+        5 => add_strip(&mut faces, corners),
+        _ => add_fan(&mut faces, corners),
+    }
+    faces
+}
+
+/// Adds the colors of a primitive's vertices, linear: its own times its material's factor; white where it states none.
+fn color(
+    triangles: &mut Triangles,
+    document: &Document,
+    buffers: &Buffers,
+    (primitive, count): (&Primitive, usize),
+) -> Result<bool, String> {
+    let material = primitive.material.and_then(|at| document.materials.as_ref()?.get(at));
+    let factor = material.and_then(|material| material.pbr.as_ref()?.base_color);
+    let tint = factor.unwrap_or([1.0; 4]);
+    let of = |channels: &[f64]| {
+        let channel = |at: usize| (channels[at] as f32 * tint[at]).clamp(0.0, 1.0);
+        Color([0, 1, 2].map(channel).into())
+    };
+    reserve(&mut triangles.colors, count)?;
+    let Some(&accessor) = primitive.attributes.get("COLOR_0") else {
+        triangles.colors.extend(std::iter::repeat_n(of(&[1.0; 3]), count));
+        return Ok(factor.is_some());
+    };
+    let own = floats(document, buffers, accessor)?;
+    if !matches!(own.width, 3 | 4) || own.values.len() != own.width * count {
+        return Err("has colors that are not those of its vertices; export it again".to_owned());
+    }
+    triangles.colors.extend(own.values.chunks_exact(own.width).map(of));
+    Ok(true)
+}
