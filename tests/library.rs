@@ -244,6 +244,9 @@ name = "atoms"
 molecule = { file = "two.pdb", style = "balls" }
 voxelize = {}
 [[entity]]
+mesh = { file = "one.obj" }
+voxelize = {}
+[[entity]]
 light = { toward = [0, -1, 0], strength = 1 }
 [[entity]]
 name = "observer"
@@ -251,7 +254,7 @@ view = { azimuth = 10, size = [24, 24] }
 "#;
 
 #[test]
-fn a_scene_that_is_stated_again_reads_and_makes_its_labels_and_molecules_once() {
+fn a_scene_that_is_stated_again_reads_and_makes_its_labels_meshes_and_molecules_once() {
     let folder = tempfile::tempdir().unwrap();
     let header = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 8 8 8\nencoding: raw\n\n";
     let labels = (0..512).map(|at| u8::from(at % 8 > 2));
@@ -264,6 +267,7 @@ fn a_scene_that_is_stated_again_reads_and_makes_its_labels_and_molecules_once() 
     };
     std::fs::write(folder.path().join("two.pdb"), atom(1, 0.0) + &atom(2, 1.5)).unwrap();
     let data = vec![folder.path().to_owned()];
+    std::fs::write(folder.path().join("one.obj"), "v 1 1 1\nv 5 1 1\nv 1 5 2\nf 1 2 3\n").unwrap();
     let source = Source::inline("s.toml", SEGMENTED);
     let loads = Loads { source, data, exact: false, most_bytes: None };
     let mut kept = Kept::default();
@@ -271,13 +275,15 @@ fn a_scene_that_is_stated_again_reads_and_makes_its_labels_and_molecules_once() 
     let files = scene.files.clone();
     let renderer = Renderer::new().unwrap();
     renderer.render(&mut scene.world).unwrap();
-    std::fs::remove_file(folder.path().join("two.pdb")).unwrap();
+    for file in ["two.pdb", "one.obj"] {
+        std::fs::remove_file(folder.path().join(file)).unwrap();
+    }
     scene.restate(&loads, &["observer.view.azimuth=70".to_owned()], &mut kept).unwrap();
     let ran = renderer.render(&mut scene.world).unwrap().ran;
     let made: Vec<_> = ran.iter().filter(|ran| ran.made > 0).map(|ran| ran.name).collect();
     assert_eq!(made, ["cast", "resample"]);
-    // Its first loading told of both files.
-    assert_eq!(files.len(), 2);
+    // Its first loading told of all files.
+    assert_eq!(files.len(), 3);
     let other = "atoms.molecule.style=\"sticks\"".to_owned();
     assert!(scene.restate(&loads, &[other], &mut kept).is_err(), "the file is asked for again");
 }

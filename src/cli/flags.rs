@@ -17,7 +17,7 @@ use super::raw_header::RawHeader;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Flags")]
 pub struct Flags {
-    /// The file to write; its extension says the format (.png .exr .tiff .npy .jpg); - is standard output (a PNG)
+    /// The file to write; its extension says the format (.png .exr .tiff .npy .jpg .webp); - is standard output (a PNG)
     #[arg(short, long, value_name = "OUT", global = true)]
     pub output: Option<PathBuf>,
     /// Pixels across and down, in place of the scene's

@@ -3,6 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use gelray::formats::meshes::mesh_format;
 use gelray::formats::pictures::format_of;
 use gelray::formats::{Loaded, Voxels, is_headerless, is_volume, read_volume};
 use gelray::measure::histogram::{Histogram, histogram, suggested_isovalues};
@@ -18,7 +19,7 @@ use super::number::number;
 use super::raw_header::RawHeader;
 use super::sentence::DATA;
 use super::table::table;
-use super::{info_picture, outputs};
+use super::{info_mesh, info_picture, outputs};
 
 /// Bins of the histogram that is printed.
 const BINS: usize = 24;
@@ -36,6 +37,9 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
     outputs::check(flags, &[&path])?;
     if format_of(&path).is_some_and(|format| format.read.is_some()) && !is_volume(&path) {
         return outputs::print_or_write(&info_picture::words(&path)?, flags);
+    }
+    if mesh_format(&path).is_some() && path.is_file() {
+        return outputs::print_or_write(&info_mesh::words(&path, flags.quiet)?, flags);
     }
     let name = file.to_string_lossy();
     let phantom_name = name.strip_prefix("phantom:");

@@ -22,6 +22,7 @@ mod frame_progress;
 mod goal;
 mod html;
 mod info;
+mod info_mesh;
 mod info_picture;
 mod interrupt;
 mod limit;

@@ -9,7 +9,7 @@ use gelray::Error;
 use gelray::error::Blame;
 use gelray::formats::pictures::{layers_beside, ray_map_beside};
 use gelray::formats::whole::Whole;
-use gelray::measure::first_hits::{self, FirstHits, first_hits};
+use gelray::measure::first_hits::{FirstHits, first_hits};
 use gelray::renderer::{Rendered, Renderer};
 use gelray::scene::{Scene, Source};
 use gelray::schedule::Ran;
@@ -80,9 +80,6 @@ pub fn run(
     let trace = flags.trace.as_deref().map(|path| (Trace::begin(), path));
     let interrupt = Interrupt::listen();
     let scene = load(&source, flags)?;
-    if flags.maps.is_some() {
-        first_hits::check(&scene.world)?;
-    }
     let mut scene = accuracy.calibrate(scene, &interrupt, flags)?;
     accuracy.state(&mut scene.world);
     let loaded = start.elapsed().as_secs_f64();

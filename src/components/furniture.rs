@@ -80,7 +80,9 @@ pub struct LegendEntry {
     pub text: String,
 }
 
-/// Text beside a place in the world, and a line to that place, which stands in the gel and is hidden by it.
+/// Text beside a place in the world, and a line to that place, which stands in the gel and is hidden by it; the text is not.
+///
+/// Where the view states a background, letters of all furniture have a rim of its color.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Callout {

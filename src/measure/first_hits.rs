@@ -3,23 +3,32 @@
 //! A pixel's ray through its middle meets what makes it half opaque: where its transparency falls below ½, in gel or at a
 //! polygon. Textures are left out, and so are volumes that are projected.
 
-use glam::{DAffine3, DVec3};
-use hecs::{Entity, World};
+mod gelled;
+mod traced;
+mod valued;
+
+use glam::DVec3;
+use hecs::World;
 use rayon::prelude::*;
 
-use crate::components::{OpacityUnit, Order, Sampling, Surface, View, Voxelize};
+use crate::components::{
+    Classify, Clip, Filter, Material, Order, Sampling, Surface, View, Voxelize,
+};
 use crate::error::Error;
 use crate::polygon::face::{Face, Faces};
-use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::composite::thicken;
 use crate::view::extent::Extent;
 use crate::view::observer::first_view;
 use crate::view::ray::Ray;
-use crate::volume::gel::{CELLS, Gel, GelBricks};
-use crate::volume::grid::{Grid, smallest_spacing};
-use crate::volume::scene_volumes::{Content, with_content};
-use crate::with_texels;
+use crate::volume::coefficients::Coefficients;
+use crate::volume::gel::Gel;
+use crate::volume::grid::{Scalars, smallest_spacing};
+use crate::volume::pyramid::Pyramid;
+use crate::volume::scene_volumes::{Content, SceneVolume, volumes};
+use gelled::Gelled;
+use traced::Traced;
+use valued::Valued;
 
 /// What a ray lets through where it has met something.
 const HALF: f64 = 0.5;
@@ -45,38 +54,18 @@ struct Hit {
     entity: u32,
 }
 
-/// Finds out whether a world will have [`first_hits`]: not where volumes state `reconstruct = "values"`, of which no gel is made.
-pub fn check(world: &World) -> Result<(), Error> {
-    if with_content(world, Content::Values).is_empty() {
-        return Ok(());
-    }
-    let problem = "maps are of gel, and a volume's `reconstruct` is values; take either away";
-    Err(Error::entity("view", problem))
-}
-
 /// The first hits of a world whose systems have run, on its first view.
 ///
-/// Fails without a view, and where [`check`] does.
+/// Fails without a view.
 pub fn first_hits(world: &World) -> Result<FirstHits, Error> {
-    check(world)?;
     let missing = || Error::Schedule("there is no view to find first hits on".to_owned());
     let view = first_view(world).ok_or_else(missing)?;
     let mut seen = world.query_one::<(&View, &Sampling, &Extent)>(view);
     let (view, sampling, extent) = seen.get().map_err(|_| missing())?;
-    let mut volumes = world.query::<(Entity, &Gel, &Grid, &OpacityUnit, Option<&Order>)>();
-    let volumes: Vec<Volume> = volumes
-        .iter()
-        .map(|(_, gel, grid, unit, order)| Volume {
-            gel: gel.lit.clone(),
-            size: grid.size,
-            to_index: grid.world_to_index(),
-            unit: unit.0,
-            entity: number(order),
-        })
-        .collect();
-    let spacings = with_content(world, Content::Classified).into_iter();
-    let spacings = spacings.chain(with_content(world, Content::Painted)).map(|v| v.grid);
-    let step = sampling.distance_mm.or_else(|| smallest_spacing(spacings));
+    let seen = volumes(world).into_iter();
+    let seen: Vec<_> = seen.filter(|volume| volume.content != Content::Projected).collect();
+    let step = sampling.distance_mm.or_else(|| smallest_spacing(seen.iter().map(|v| v.grid)));
+    let volumes = seen.iter().filter_map(|volume| asked(world, volume, sampling.filter)).collect();
     let mut faces = world.query::<(&Faces, &Surface, Option<&Order>)>().without::<&Voxelize>();
     let camera = Camera::new(view, extent);
     let faces: Vec<Traced> = faces
@@ -91,6 +80,26 @@ pub fn first_hits(world: &World) -> Result<FirstHits, Error> {
     Ok(Scene { camera, extent: *extent, step, volumes, faces }.hits())
 }
 
+/// A volume as rays of the view sample it; `None` where it has neither gel nor values.
+fn asked(world: &World, volume: &SceneVolume, filter: Filter) -> Option<Volume> {
+    let SceneVolume { entity, grid, unit, content } = *volume;
+    let order = world.get::<&Order>(entity).ok();
+    let content = if content == Content::Values {
+        type Stated<'a> = (&'a Scalars, &'a Classify, Option<&'a Material>, Option<&'a Clip>);
+        let mut query = world.query_one::<Stated<'_>>(entity);
+        let (scalars, classify, material, clip) = query.get().ok()?;
+        let made = world.get::<&Coefficients>(entity).map(|made| made.values.clone());
+        let sampled = (made.unwrap_or_else(|_| scalars.clone()), filter);
+        let pyramid = world.get::<&Pyramid>(entity).map(|pyramid| (*pyramid).clone()).ok();
+        let material = material.cloned().unwrap_or_default();
+        let stated = (classify, &material, clip);
+        Asked::Values(Box::new(Valued::new(sampled, (grid, unit), pyramid, stated)))
+    } else {
+        Asked::Gel(Gelled::new(world.get::<&Gel>(entity).ok()?.lit.clone(), &grid))
+    };
+    Some(Volume { content, unit, entity: number(order.as_deref()) })
+}
+
 fn number(order: Option<&Order>) -> u32 {
     order.map_or(0, |order| order.0).saturating_add(1)
 }
@@ -103,25 +112,16 @@ struct Scene {
     faces: Vec<Traced>,
 }
 
-/// A volume as gel.
+/// A volume as it is asked.
 struct Volume {
-    gel: GelBricks,
-    size: [usize; 3],
-    to_index: DAffine3,
+    content: Asked,
     unit: f64,
     entity: u32,
 }
 
-/// A polygon, with two axes of its plane.
-struct Traced {
-    normal: DVec3,
-    center: DVec3,
-    axes: [DVec3; 2],
-    outlines: Vec<Vec<[f64; 2]>>,
-    /// The rows of pixels that it lies in, from the first to the last; infinite where it reaches behind the eye.
-    rows: [f64; 2],
-    opacity: f64,
-    entity: u32,
+enum Asked {
+    Gel(Gelled),
+    Values(Box<Valued>),
 }
 
 impl Scene {
@@ -172,108 +172,77 @@ impl Scene {
                     return Some(Hit { depth, normal, entity: face.entity });
                 }
             }
-            if slab < slabs {
-                let before = clear;
-                let at = ray.at(from + self.step / 2.0);
-                let (left, thickest) = self.through(at, &ray);
-                clear *= left;
-                if clear < HALF {
-                    let part = (before / HALF).ln() / (before / clear.max(1e-9)).ln();
-                    let volume = thickest?;
-                    let normal = facing(volume.slope(at).normalize_or_zero());
-                    let depth = from + self.step * part.clamp(0.0, 1.0);
-                    return Some(Hit { depth, normal, entity: volume.entity });
-                }
+            if slab < slabs
+                && let Some(hit) = self.met_in_slab(&ray, from, &mut clear)
+            {
+                return Some(Hit { normal: facing(hit.normal), ..hit });
             }
         }
         None
     }
 
-    /// What a slab around a point lets through, and which volume holds back the most.
-    fn through(&self, at: DVec3, ray: &Ray) -> (f64, Option<&Volume>) {
-        let way = self.step * ray.along.length();
+    /// Takes a ray through the volumes in the slab from a depth on: what makes it half opaque there, if anything does.
+    fn met_in_slab(&self, ray: &Ray, from: f64, clear: &mut f64) -> Option<Hit> {
+        let (middle, way) = (ray.at(from + self.step / 2.0), ray.along * self.step);
         let (mut left, mut thickest) = (1.0, (0.0, None));
+        let mut surfaces: Vec<(f64, f64, &Volume)> = Vec::new();
         for volume in &self.volumes {
-            let opacity = thicken(volume.opacity(at), way / volume.unit);
+            let opacity = thicken(volume.opacity(middle, way), way.length() / volume.unit);
             left *= 1.0 - opacity;
             if opacity > thickest.0 {
                 thickest = (opacity, Some(volume));
             }
+            if let Asked::Values(values) = &volume.content {
+                let crossed = values.crossings(middle, way).into_iter();
+                surfaces.extend(crossed.map(|(part, opacity)| (part, opacity, volume)));
+            }
         }
-        (left, thickest.1)
+        surfaces.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let hit = |part: f64, volume: &Volume, at: DVec3| {
+            let normal = volume.slope(at).normalize_or_zero();
+            Hit { depth: from + self.step * part, normal, entity: volume.entity }
+        };
+        // Gel fills the slab evenly, before and behind each surface.
+        let mut passed = 0.0;
+        for (part, surface) in surfaces.iter().map(|s| (s.0, Some(s))).chain([(1.0, None)]) {
+            let before = *clear;
+            *clear *= thin(left, part - passed);
+            if *clear < HALF {
+                let within = (before / HALF).ln() / (before / clear.max(1e-9)).ln();
+                let part = passed + (part - passed) * within.clamp(0.0, 1.0);
+                return Some(hit(part, thickest.1?, middle));
+            }
+            passed = part;
+            if let Some((_, opacity, volume)) = surface {
+                *clear *= 1.0 - opacity;
+                if *clear < HALF {
+                    return Some(hit(part, volume, middle + way * (part - 0.5)));
+                }
+            }
+        }
+        None
     }
+}
+
+/// What a part of a slab lets through, all of which lets `left` through.
+fn thin(left: f64, part: f64) -> f64 {
+    1.0 - thicken(1.0 - left, part)
 }
 
 impl Volume {
-    /// The opacity at a world point, per opacity unit; 0 outside.
-    fn opacity(&self, world: DVec3) -> f64 {
-        let index = self.to_index.transform_point3(world).to_array();
-        let last = self.size.map(|n| n as f64 - 1.0);
-        if (0..3).any(|a| !(0.0..=last[a]).contains(&index[a])) {
-            return 0.0;
+    /// The opacity of a slab around a world point, per opacity unit; `way` is the ray's way through it.
+    fn opacity(&self, world: DVec3, way: DVec3) -> f64 {
+        match &self.content {
+            Asked::Gel(gel) => gel.opacity(world),
+            Asked::Values(values) => values.opacity(world, way),
         }
-        let cell = index.map(|n| n as usize);
-        let within = DVec3::from_array(std::array::from_fn(|a| index[a] - cell[a] as f64));
-        with_texels!(&self.gel, texels => {
-            let slices = texels.slices();
-            let brick = slices.stored(texels.entry(cell));
-            f64::from(slices.sample(brick, cell.map(|n| n % CELLS), within.as_vec3()).w)
-        })
     }
 
-    /// Where the opacity falls, world: minus its gradient.
+    /// The way out of what is seen there.
     fn slope(&self, world: DVec3) -> DVec3 {
-        let to_world = self.to_index.inverse().matrix3;
-        let differences = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
-            let step = to_world * axis;
-            self.opacity(world + step) - self.opacity(world - step)
-        });
-        -(self.to_index.matrix3.transpose() * DVec3::from(differences))
+        match &self.content {
+            Asked::Gel(gel) => gel.slope(world),
+            Asked::Values(values) => values.slope(world),
+        }
     }
-}
-
-impl Traced {
-    fn new(face: &Face, camera: &Camera, opacity: f64, entity: u32) -> Self {
-        let axes = face.normal.any_orthonormal_pair();
-        let flat = |vertex: &DVec3| {
-            let from = *vertex - face.center;
-            [from.dot(axes.0), from.dot(axes.1)]
-        };
-        let outlines =
-            face.outlines.iter().map(|outline| outline.iter().map(flat).collect()).collect();
-        let Face { normal, center, .. } = *face;
-        let rows = rows(face, camera);
-        Self { normal, center, axes: [axes.0, axes.1], outlines, rows, opacity, entity }
-    }
-
-    /// Whether the middles of a row of pixels may meet it.
-    fn is_near(&self, y: usize) -> bool {
-        let middle = y as f64 + 0.5;
-        self.rows[0] <= middle && middle <= self.rows[1]
-    }
-
-    /// How deep a ray meets it.
-    fn depth(&self, ray: &Ray) -> Option<f64> {
-        let depth = self.normal.dot(self.center - ray.origin) / self.normal.dot(ray.along);
-        let from = ray.at(depth) - self.center;
-        let [x, y] = self.axes.map(|axis| axis.dot(from));
-        let crosses = |([ax, ay], [bx, by]): ([f64; 2], [f64; 2])| {
-            (ay <= y) != (by <= y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
-        };
-        let edges = self.outlines.iter().flat_map(|outline| edges(outline));
-        let inside = edges.filter(|edge| crosses(*edge)).count() % 2 == 1;
-        (depth.is_finite() && inside).then_some(depth)
-    }
-}
-
-/// Between which heights in the window a face lies, pixels, with room for what is rounded.
-fn rows(face: &Face, camera: &Camera) -> [f64; 2] {
-    let vertices = || face.outlines.iter().flatten();
-    if vertices().any(|vertex| camera.depth(*vertex) < camera.nearest()) {
-        return [f64::NEG_INFINITY, f64::INFINITY];
-    }
-    let heights = vertices().map(|vertex| camera.project(*vertex).0.y);
-    let [low, high] = heights
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
-    [low - 0.25, high + 0.25]
 }

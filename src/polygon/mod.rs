@@ -2,9 +2,11 @@
 
 pub mod arrays;
 pub mod coverage;
+pub mod enclosed;
 pub mod face;
 pub mod may_hold;
 pub(crate) mod outline;
 pub(crate) mod shape;
 mod simple;
 pub mod texture;
+mod welded;

@@ -7,11 +7,14 @@ use super::fault::{Fault, Notice};
 use super::fill::fill;
 use super::lights::falloff;
 use super::order::spawn;
-use crate::components::{DepthCue, Light, Sampling, TexelKind, View};
+use crate::components::{Axes, DepthCue, Legend, Light, Sampling, TexelKind, Title, View};
 use crate::polygon::face::Faces;
 use crate::view::extent::Extent;
 use crate::volume::grid::{Grid, smallest_spacing};
 use crate::volume::scene_volumes::visible;
+
+/// How much larger a box, at both ends of each side, a default view frames where letters stand around it, as a part of it.
+const ROOM: f64 = 0.08;
 
 /// On the view that was added because none was stated; it goes when one is.
 struct DefaultView;
@@ -46,16 +49,23 @@ pub(super) fn fill_in(
     for view in default.into_iter().filter(|_| views.len() > 1) {
         let _ = world.despawn(view);
     }
+    let framed = if is_lettered(world) { extent.grown(ROOM) } else { extent };
     for view in carriers::<View>(world) {
         if let Some(DepthCue { k1, k2 }) = get(world, view) {
             falloff(k1, k2, extent).map_err(|p| Fault::of(view, "depth_cue", "k2", p))?;
         }
         fill(world, view, (), |()| Ok(Sampling::default()))?;
-        fill(world, view, extent, |extent| Ok(*extent))?;
+        fill(world, view, framed, |framed| Ok(*framed))?;
         check_distance(world, view, extent)?;
         notices.extend(cut_colors(world, view));
     }
     Ok(())
+}
+
+/// Whether something is written around what is seen.
+fn is_lettered(world: &World) -> bool {
+    let any = (carriers::<Title>(world).len(), carriers::<Axes>(world).len());
+    any != (0, 0) || !carriers::<Legend>(world).is_empty()
 }
 
 /// Says that texels of whole numbers cut colors which lights make brighter than 1.

@@ -1,4 +1,4 @@
-//! What one loading of a scene leaves for the next: voxels, pictures and molecules that were read, and what was made and measured
+//! What one loading of a scene leaves for the next: voxels, pictures, meshes and molecules that were read, and what was made and measured
 //! of them.
 //!
 //! Products are kept where their inputs are the very same arrays, so a scene that is loaded again with other numbers takes
@@ -8,7 +8,7 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use crate::components::{Classify, Labels, Molecule, Texture, Volume};
+use crate::components::{Classify, Labels, Mesh, Molecule, Texture, Volume};
 use crate::formats::Loaded;
 use crate::measure::sigma::{Sigma, sigma};
 use crate::polygon::face::{FaceColors, Faces};
@@ -23,6 +23,7 @@ use crate::volume::labels::Tint;
 pub struct Kept {
     pub(super) volumes: HashMap<String, KeptVolume>,
     pub(super) pictures: HashMap<String, KeptPicture>,
+    pub(super) meshes: HashMap<String, KeptMesh>,
     pub(super) molecules: HashMap<String, KeptMolecule>,
     pub(super) labels: HashMap<String, KeptLabels>,
     measured: Vec<(Scalars, OnceCell<Option<Sigma>>)>,
@@ -42,6 +43,15 @@ pub(super) struct KeptVolume {
 pub(super) struct KeptPicture {
     pub stated: Texture,
     pub picture: Picture,
+    pub files: Vec<PathBuf>,
+}
+
+/// The faces of an entity's mesh, of a file.
+#[derive(Clone)]
+pub(super) struct KeptMesh {
+    pub stated: Mesh,
+    pub faces: Faces,
+    pub colors: Option<FaceColors>,
     pub files: Vec<PathBuf>,
 }
 

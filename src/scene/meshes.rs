@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::kept::KeptMesh;
 use super::loading::Loading;
 use crate::components::{Color, Mesh, Space};
 use crate::error::Error;
@@ -14,16 +15,39 @@ use crate::shared::Shared;
 /// Reads every mesh that names a file.
 pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
     for entry in loading.nouns(&["mesh"]) {
-        let Some(Mesh { file: Some(file), space, unit_mm, .. }) = loading.get::<Mesh>(entry) else {
-            continue;
-        };
-        let (faces, colors) = of_file(loading, entry, &file, space, unit_mm)?;
-        loading.add(entry, (Faces(Arc::new(faces)),));
-        if !colors.is_empty() {
-            loading.add(entry, (FaceColors(Shared::new(colors)),));
+        let Some(mesh) = loading.get::<Mesh>(entry) else { continue };
+        let Some(file) = mesh.file.clone() else { continue };
+        let KeptMesh { faces, colors, .. } = kept_or_read(loading, entry, mesh, &file)?;
+        loading.add(entry, (faces,));
+        if let Some(colors) = colors {
+            loading.add(entry, (colors,));
         }
     }
     Ok(())
+}
+
+/// The faces that an earlier loading read; else the file is read, and its faces are kept for the next.
+fn kept_or_read(
+    loading: &mut Loading,
+    entry: usize,
+    mesh: Mesh,
+    file: &str,
+) -> Result<KeptMesh, Error> {
+    let name = loading.entries[entry].name.clone();
+    if let Some(kept) = loading.kept.meshes.get(&name).filter(|kept| kept.stated == mesh) {
+        loading.files.extend(kept.files.iter().cloned());
+        return Ok(kept.clone());
+    }
+    let before = loading.files.len();
+    let (faces, colors) = of_file(loading, entry, file, &mesh)?;
+    let kept = KeptMesh {
+        stated: mesh,
+        faces: Faces(Arc::new(faces)),
+        colors: (!colors.is_empty()).then(|| FaceColors(Shared::new(colors))),
+        files: loading.files[before..].to_vec(),
+    };
+    loading.kept.meshes.insert(name, kept.clone());
+    Ok(kept)
 }
 
 /// The triangles of a file, in the world, and their colors if it has any; those without an area are left out and said.
@@ -31,8 +55,7 @@ fn of_file(
     loading: &mut Loading,
     entry: usize,
     file: &str,
-    space: Option<Space>,
-    unit_mm: Option<f64>,
+    &Mesh { space, unit_mm, .. }: &Mesh,
 ) -> Result<(Vec<Face>, Vec<Color>), Error> {
     let Some(path) = loading.folders.find(file) else {
         let missing = loading.folders.missing(file);

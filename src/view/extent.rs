@@ -20,6 +20,13 @@ impl Extent {
         })
     }
 
+    /// The box with a part of each side more at both its ends.
+    #[must_use]
+    pub fn grown(&self, part: f64) -> Self {
+        let more = (self.high - self.low) * part;
+        Self { low: self.low - more, high: self.high + more }
+    }
+
     /// The middle of the box.
     #[must_use]
     pub fn center(&self) -> DVec3 {

@@ -17,13 +17,15 @@ impl Product for Overlay {}
 pub(crate) struct Canvas {
     size: [usize; 2],
     pixels: Vec<[f32; 4]>,
+    /// The color of what is behind the picture, which letters are set off by from what lies before it.
+    background: Option<Vec3>,
 }
 
 impl Canvas {
-    /// A clear canvas of so many pixels across and down.
+    /// A clear canvas of so many pixels across and down, before a color (linear) if there is one.
     #[must_use]
-    pub fn new(size: [usize; 2]) -> Self {
-        Self { size, pixels: vec![[0.0; 4]; size[0] * size[1]] }
+    pub fn new(size: [usize; 2], background: Option<Vec3>) -> Self {
+        Self { size, pixels: vec![[0.0; 4]; size[0] * size[1]], background }
     }
 
     /// What was drawn.
@@ -86,8 +88,22 @@ impl Canvas {
         }
     }
 
-    /// A line of text with its top left corner at a place, pixels.
+    /// A line of text with its top left corner at a place, pixels; before a background its letters have a rim of that color, so
+    /// that they are read before anything.
     pub fn text(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
+        if let Some(background) = self.background {
+            let rim = line.height / 12.0;
+            for step in 0..12_u8 {
+                let (dy, dx) = (f32::from(step) * std::f32::consts::TAU / 12.0).sin_cos();
+                let beside = [at[0] + rim * dx, at[1] + rim * dy];
+                line.draw(beside, |pixel, covered| self.put(pixel, background, covered));
+            }
+        }
+        self.letters(line, at, color);
+    }
+
+    /// The same without a rim, for what is written on something that was drawn.
+    pub fn letters(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
         line.draw(at, |pixel, covered| self.put(pixel, color, covered));
     }
 }
@@ -98,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_convex_polygon_covers_its_area() {
-        let mut canvas = Canvas::new([20, 20]);
+        let mut canvas = Canvas::new([20, 20], None);
         let corners = [[3.0, 2.0], [15.0, 5.0], [16.0, 14.0], [4.0, 12.0]].map(Vec2::from);
         canvas.convex(&corners, Vec3::X);
         let area: f32 = canvas.picture().pixels.iter().map(|pixel| pixel[3]).sum();
@@ -108,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_rectangle_covers_its_area_and_nothing_beside_the_canvas() {
-        let mut canvas = Canvas::new([8, 6]);
+        let mut canvas = Canvas::new([8, 6], None);
         canvas.rectangle([1.25, 2.5], [4.75, 4.0], Vec3::X);
         canvas.rectangle([7.5, -3.0], [90.0, 0.5], Vec3::Y);
         let picture = canvas.picture();

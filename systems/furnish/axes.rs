@@ -6,38 +6,46 @@ use super::layout::{Sheet, short};
 use crate::components::{Axes, OrientationCube};
 use crate::view::axes::Axis;
 use crate::view::camera::Camera;
-use crate::view::lettering::set;
+use crate::view::lettering::{Line, set};
 
 impl Sheet {
-    /// The values at the ticks of axes, and what the axes are called; `tick` is a tick's length, world units.
+    /// The values at the ticks of axes, and what the axes are called; `tick` is a tick's length, world units. A value that
+    /// would stand on something else is left out, and a name stands where there is room for it.
     pub fn axes(&mut self, stated: &Axes, axes: &[Axis; 3], camera: &Camera, tick: f64) {
         let letters = self.letters(stated.letters_pixels, 1.0 / 36.0);
-        for axis in axes {
-            let mut beside = |point: DVec3, text: &str, farther: f32| {
-                let [at, end] = [point, point + axis.out * tick].map(|p| camera.project(p));
-                if at.1 < camera.nearest() || end.1 < camera.nearest() {
-                    return;
+        let color = stated.color.0;
+        let mut widest = [0.0_f32; 3];
+        for (axis, widest) in axes.iter().zip(&mut widest) {
+            for &value in &axis.ticks {
+                let line = set(&short(value), letters);
+                let Some(corner) =
+                    beside(axis.at(value), (axis, tick), camera, (&line, 0.3 * letters))
+                else {
+                    continue;
+                };
+                *widest = widest.max(line.width);
+                if self.is_free(corner, Vec2::new(line.width, line.height)) {
+                    self.write(&line, corner, color);
                 }
-                let [at, end] = [at.0.as_vec2(), end.0.as_vec2()];
-                let away = (end - at).try_normalize().unwrap_or(Vec2::Y);
-                let line = set(text, letters);
-                let reach = away.x.abs() * line.width / 2.0 + away.y.abs() * line.height / 2.0;
-                let middle = end + away * (reach + letters * (0.3 + farther));
-                let size = Vec2::new(line.width, line.height);
-                // At the picture's edge a value is moved inside rather than cut.
-                let most = (Vec2::from(self.size) - size).max(Vec2::ZERO);
-                let corner = (middle - size / 2.0).clamp(Vec2::ZERO, most);
-                self.canvas.text(&line, corner.round().to_array(), stated.color.0);
-            };
-            let values: Vec<String> = axis.ticks.iter().map(|value| short(*value)).collect();
-            for (value, text) in axis.ticks.iter().zip(&values) {
-                beside(axis.at(*value), text, 0.0);
             }
-            let longest = values.iter().map(|text| text.chars().count()).max().unwrap_or(0) as f32;
-            let farther = if axis.name == "z" { 0.7 * longest + 0.3 } else { 1.2 };
-            let name = format!("{}, {}", axis.name, stated.unit);
-            beside((axis.ends[0] + axis.ends[1]) / 2.0, &name, farther);
         }
+        for (axis, widest) in axes.iter().zip(widest) {
+            let line = set(&format!("{}, {}", axis.name, stated.unit), letters);
+            let size = Vec2::new(line.width, line.height);
+            let across = if axis.name == "z" { widest + 0.6 * letters } else { 1.3 * letters };
+            let mut places = places(axis).flat_map(|point| {
+                let at = |gap: f32| beside(point, (axis, tick), camera, (&line, gap));
+                [at(0.3 * letters + across), at(0.3 * letters)]
+            });
+            if let Some(corner) = places.find_map(|at| at.filter(|at| self.is_free(*at, size))) {
+                self.write(&line, corner, color);
+            }
+        }
+    }
+
+    fn write(&mut self, line: &Line, corner: Vec2, color: Vec3) {
+        self.canvas.text(line, corner.to_array(), color);
+        self.take(corner, Vec2::new(line.width, line.height));
     }
 
     /// A cube in a corner, turned as the world is, with a letter on each side that is seen.
@@ -66,8 +74,36 @@ impl Sheet {
                 let line = set(letter, size * 0.5 * facing.sqrt());
                 let corner = drawn(normal) - Vec2::new(line.width, line.height) / 2.0;
                 let ink = if color.dot(Vec3::new(0.21, 0.72, 0.07)) > 0.3 { 0.0 } else { 1.0 };
-                self.canvas.text(&line, corner.round().to_array(), Vec3::splat(ink));
+                self.canvas.letters(&line, corner.round().to_array(), Vec3::splat(ink));
             }
         }
     }
+}
+
+/// The top left of a line of text beside a point of an axis, `gap` pixels farther out than the end of a tick there; `None`
+/// behind the eye.
+fn beside(
+    point: DVec3,
+    (axis, tick): (&Axis, f64),
+    camera: &Camera,
+    (line, gap): (&Line, f32),
+) -> Option<Vec2> {
+    let [at, end] = [point, point + axis.out * tick].map(|p| camera.project(p));
+    if at.1 < camera.nearest() || end.1 < camera.nearest() {
+        return None;
+    }
+    let [at, end] = [at.0.as_vec2(), end.0.as_vec2()];
+    let away = (end - at).try_normalize().unwrap_or(Vec2::Y);
+    let size = Vec2::new(line.width, line.height);
+    let reach = (away.abs() * size).element_sum() / 2.0;
+    Some((end + away * (reach + gap) - size / 2.0).round())
+}
+
+/// The points of an axis that its name may stand beside: its middle, then between its ticks from there outward.
+fn places(axis: &Axis) -> impl Iterator<Item = DVec3> {
+    let middle = (axis.ends[0] + axis.ends[1]) / 2.0;
+    let mut between: Vec<_> =
+        axis.ticks.windows(2).map(|pair| axis.at(f64::midpoint(pair[0], pair[1]))).collect();
+    between.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+    std::iter::once(middle).chain(between)
 }

@@ -15,15 +15,17 @@ pub(crate) struct Sheet {
     pub size: [f32; 2],
     /// How far each corner is filled, pixels.
     filled: [f32; 4],
+    /// What is taken by something: its least and greatest corner, pixels.
+    taken: Vec<[Vec2; 2]>,
 }
 
 impl Sheet {
-    /// An empty picture of so many pixels across and down.
-    pub fn new(size: [usize; 2]) -> Self {
-        let canvas = Canvas::new(size);
+    /// An empty picture of so many pixels across and down, before a color if there is one.
+    pub fn new(size: [usize; 2], background: Option<Color>) -> Self {
+        let canvas = Canvas::new(size, background.map(|color| color.0));
         let size = size.map(|n| n as f32);
         let margin = size[1] * 0.03;
-        Self { canvas, size, filled: [margin; 4] }
+        Self { canvas, size, filled: [margin; 4], taken: Vec::new() }
     }
 
     /// The height of letters, as stated or else a part of the picture's height.
@@ -44,7 +46,21 @@ impl Sheet {
             Corner::TopLeft | Corner::BottomLeft => margin,
             Corner::TopRight | Corner::BottomRight => self.size[0] - margin - width,
         };
+        self.take([x.round(), y.round()].into(), [width, height].into());
         [x.round(), y.round()]
+    }
+
+    /// Keeps others from a place.
+    pub fn take(&mut self, corner: Vec2, size: Vec2) {
+        self.taken.push([corner, corner + size]);
+    }
+
+    /// Whether something of that size, with its top left at `corner`, is in the picture and on nothing else.
+    pub fn is_free(&self, corner: Vec2, size: Vec2) -> bool {
+        let high = corner + size;
+        let inside = corner.cmpge(Vec2::ZERO).all() && high.cmple(self.size.into()).all();
+        let apart = |own: &[Vec2; 2]| corner.cmpgt(own[1]).any() || high.cmplt(own[0]).any();
+        inside && self.taken.iter().all(apart)
     }
 
     /// A title in the middle of the top; what else stands at the top stands below it.
@@ -53,6 +69,7 @@ impl Sheet {
         let filled = self.filled[0].max(self.filled[1]);
         let at = [((self.size[0] - line.width) / 2.0).round(), filled.round()];
         self.canvas.text(&line, at, title.color.0);
+        self.take(at.into(), [line.width, line.height].into());
         self.filled[0] = filled + line.height * 1.2;
         self.filled[1] = self.filled[0];
     }
@@ -122,6 +139,7 @@ impl Sheet {
         let x = if is_left { from.x - gap - line.width } else { from.x + gap };
         let at = [x.round(), (from.y - line.height / 2.0).round()];
         self.canvas.text(&line, at, callout.color.0);
+        self.take(at.into(), [line.width, line.height].into());
     }
 }
 
@@ -160,7 +178,7 @@ mod tests {
 
     #[test]
     fn what_stands_in_one_corner_stands_apart() {
-        let mut layout = Sheet::new([200, 100]);
+        let mut layout = Sheet::new([200, 100], None);
         let first = layout.place(Corner::BottomRight, [50.0, 20.0]);
         let second = layout.place(Corner::BottomRight, [30.0, 10.0]);
         assert_eq!(first, [147.0, 77.0]);

@@ -38,6 +38,7 @@ enum Drawn {
 #[derive(PartialEq)]
 struct Inputs {
     camera: Camera,
+    background: Option<Color>,
     drawn: Vec<Drawn>,
 }
 
@@ -52,7 +53,8 @@ impl System for Furnish {
             return Ok(());
         }
         for (entity, view, extent) in &mut world.query::<(Entity, &View, &Extent)>() {
-            let inputs = Inputs { camera: Camera::new(view, extent), drawn: drawn.clone() };
+            let (camera, background) = (Camera::new(view, extent), view.background);
+            let inputs = Inputs { camera, background, drawn: drawn.clone() };
             out.derive(entity, inputs, |inputs| Ok(inputs.furnish()))?;
         }
         Ok(())
@@ -119,8 +121,11 @@ fn colors(world: &World, legend: &Legend) -> Result<Vec<(f32, Color)>, Error> {
 
 impl Inputs {
     fn furnish(&self) -> Overlay {
-        let mut layout = Sheet::new(self.camera.size);
-        for drawn in &self.drawn {
+        let mut layout = Sheet::new(self.camera.size, self.background);
+        // What has a corner of its own comes first, and axes give way.
+        let is_axes = |drawn: &&Drawn| matches!(drawn, Drawn::Axes(..));
+        let first = self.drawn.iter().filter(|drawn| !is_axes(drawn));
+        for drawn in first.chain(self.drawn.iter().filter(is_axes)) {
             match drawn {
                 Drawn::Bar(bar) => layout.scale_bar(bar, self.camera.pixel),
                 Drawn::Title(title) => layout.title(title),

@@ -12,6 +12,7 @@ mod extremes;
 mod filters;
 mod layers;
 mod lossless;
+mod meshes;
 mod perspective;
 mod random_scenes;
 mod reference;

@@ -56,6 +56,26 @@ fn a_volume_is_told_by_header_values_and_histogram() {
 }
 
 #[test]
+fn a_mesh_is_told_by_extent_area_and_whether_it_is_closed() {
+    let place = Place::new();
+    let points = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\n";
+    place.write("whole.obj", format!("{points}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+    let out = place.done("info whole.obj").out;
+    for fact in ["4 of 4 points, OBJ", "(0, 0, 0) to (1, 2, 3)", "9", "yes, around a volume of 1"] {
+        assert!(out.contains(fact), "{fact} in {out}");
+    }
+    assert!(!out.contains("inward"), "{out}");
+    place.write("open.obj", format!("{points}f 1 2 3\nf 1 2 4\nf 1 4 3\n"));
+    let out = place.done("info open.obj").out;
+    assert!(
+        out.contains("no: 3 edges of one triangle alone") && out.contains("different sides"),
+        "{out}"
+    );
+    place.write("inward.obj", format!("{points}f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"));
+    assert!(place.done("info inward.obj").out.contains("face inward"));
+}
+
+#[test]
 fn a_picture_is_told_by_size_and_range() {
     let place = Place::new();
     place.done("render cross.toml -o a.exr");

@@ -56,3 +56,26 @@ fn maps_of_a_picture_are_layers_of_an_exr_by_the_file_s_name() {
     }
     place.refused("render cross.toml -q -o a.png --maps a.png", 2, &[".exr or .npy"]);
 }
+
+#[test]
+fn maps_of_values_lie_on_their_surface() {
+    let place = Place::new();
+    place.write("s.toml", SCENE);
+    for (words, apart) in [("thickness_voxels=0", 0.01), ("thickness_voxels=1", 0.5)] {
+        let set = format!("--set ball.classify.iso.0.{words} --set ball.volume.reconstruct=values");
+        place.done(&format!("render s.toml -q -o a.png --maps a.npy {set}"));
+        let maps = place.read("a.npy");
+        let radii = [[30, 30], [38, 30], [25, 36], [30, 20], [41, 41]].map(|[x, y]| {
+            let [depth, nx, ny, nz, entity] = pixel(&maps, [x, y]);
+            let (x, z) = (x as f32 + 0.5 - 30.0, 30.0 - y as f32 - 0.5);
+            let radius = (x * x + z * z + depth * depth).sqrt();
+            let along = (nx * x + ny * depth + nz * z) / radius;
+            assert!(entity == 2.0 && along > 0.99, "{words} {along}");
+            radius
+        });
+        let [low, high] = [f32::min, f32::max].map(|pick| radii.into_iter().reduce(pick).unwrap());
+        assert!(high - low < apart, "{words} {radii:?}");
+        // The wall is seen beside the ball, as it was.
+        assert_eq!(pixel(&maps, [12, 12]), [30.0, 0.0, -1.0, 0.0, 1.0]);
+    }
+}

@@ -15,6 +15,7 @@ pub mod npy;
 pub mod png;
 mod ray_map;
 pub mod tiff;
+pub mod webp;
 
 #[cfg(test)]
 mod tests;
@@ -33,8 +34,8 @@ pub use layers::{PixelLayer, layers_beside};
 pub use ray_map::{ray_map_beside, write_ray_map};
 
 /// Every known format of pictures.
-pub static PICTURE_FORMATS: [PictureFormat; 5] =
-    [png::FORMAT, exr::FORMAT, tiff::FORMAT, npy::FORMAT, jpeg::FORMAT];
+pub static PICTURE_FORMATS: [PictureFormat; 6] =
+    [png::FORMAT, exr::FORMAT, tiff::FORMAT, npy::FORMAT, jpeg::FORMAT, webp::FORMAT];
 
 /// The longest file that is read: floats of the most pixels, and as much again.
 const LONGEST_FILE: u64 = MOST_PIXELS * 32;

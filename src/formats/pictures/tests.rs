@@ -58,6 +58,16 @@ fn a_png_read_and_written_again_is_equal_byte_for_byte() {
 }
 
 #[test]
+fn a_webp_is_the_very_picture_that_a_png_is_and_no_larger_than_its_format_has_room_for() {
+    let webp = webp::read(&written(&webp::FORMAT, &picture()).unwrap()).unwrap();
+    let png = png::FORMAT.read.unwrap()(&written(&png::FORMAT, &picture()).unwrap()).unwrap();
+    assert_eq!((webp.size, &webp.pixels[..]), (png.size, &png.pixels[..]));
+    let long = Picture::new([16_385, 1], vec![[0.0; 4]; 16_385]).unwrap();
+    let problem = webp::write(&mut std::io::Cursor::new(Vec::new()), &long, &[]).unwrap_err();
+    assert!(problem.to_string().contains(".png"));
+}
+
+#[test]
 fn a_jpeg_is_the_picture_over_black_but_for_small_losses() {
     let value = |i: usize| (i % 32) as f32 / 31.0;
     let pixel = |i: usize| [value(i) * 0.5, value(i / 32) * 0.5, 0.1, 0.5];
@@ -131,7 +141,7 @@ fn an_unknown_extension_is_told_the_known_ones_before_rendering() {
     let problem = |name: &str| check_output(Path::new(name)).unwrap_err().to_string();
     assert_eq!(
         problem("head.bmp"),
-        "head.bmp: has the extension `.bmp`; name a picture with one of .png, .exr, .tiff, .tif, .npy, .jpg, .jpeg"
+        "head.bmp: has the extension `.bmp`; name a picture with one of .png, .exr, .tiff, .tif, .npy, .jpg, .jpeg, .webp"
     );
     assert!(problem("head").contains("no extension"));
     assert!(read_picture(Path::new("head.bmp")).unwrap_err().to_string().contains(".jpeg"));

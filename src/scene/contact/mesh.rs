@@ -12,7 +12,8 @@ use crate::scene::source::Source;
 pub(super) fn scene(path: &Path, size: [u32; 2]) -> (Source, String) {
     let name = path.display().to_string();
     let quoted = toml::Value::String(name.clone()).to_string();
-    let up = mesh_format(path).is_some_and(|format| format.extension == "obj");
+    let up =
+        mesh_format(path).is_some_and(|format| ["obj", "gltf", "glb"].contains(&format.extension));
     let (space, axes) = if up {
         ("y-up", "y up, as modelers write it")
     } else {

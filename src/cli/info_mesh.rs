@@ -1,0 +1,58 @@
+//! `gelray info` of a mesh: what it is made of, where it lies, and whether it encloses anything.
+
+use std::path::Path;
+
+use gelray::formats::meshes::{Triangles, mesh_format, read_mesh};
+use gelray::polygon::enclosed::Enclosed;
+use glam::DVec3;
+
+use super::failure::{Failure, tell};
+use super::number::number;
+use super::table::table;
+
+/// What a mesh holds, a fact a line, in its file's own coordinates; warnings are told unless `quiet`.
+pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
+    let triangles = read_mesh(path)?;
+    for warning in triangles.warnings.iter().filter(|_| !quiet) {
+        tell(format_args!("warning: {warning}"));
+    }
+    let format = mesh_format(path).map_or("mesh", |format| format.name);
+    let enclosed = Enclosed::by(&triangles.vertices, &triangles.faces);
+    let [low, high] = extent(&triangles);
+    let colors = if triangles.colors.is_empty() { "" } else { ", in the colors of its vertices" };
+    let rows = [
+        ("file", path.display().to_string()),
+        (
+            "triangles",
+            format!("{} of {} points, {format}{colors}", triangles.faces.len(), enclosed.points),
+        ),
+        ("extent", format!("{} to {}", point(low), point(high))),
+        ("area", number(enclosed.area)),
+        ("closed", closed(&enclosed)),
+    ];
+    Ok(table(&rows.map(|(name, text)| [name.to_owned(), text]), &[]))
+}
+
+fn closed(enclosed: &Enclosed) -> String {
+    if enclosed.is_closed() {
+        let way = if enclosed.volume < 0.0 { ", its triangles face inward" } else { "" };
+        return format!("yes, around a volume of {}{way}", number(enclosed.volume.abs()));
+    }
+    let faults = [
+        (enclosed.open, "of one triangle alone (rims of holes)"),
+        (enclosed.shared, "of more than two triangles"),
+        (enclosed.turned, "of triangles that face different sides"),
+    ];
+    let stated = faults.iter().filter(|(count, _)| *count > 0);
+    let stated: Vec<_> = stated.map(|(count, what)| format!("{count} edges {what}")).collect();
+    format!("no: {}", stated.join(", "))
+}
+
+fn extent(triangles: &Triangles) -> [DVec3; 2] {
+    let start = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    triangles.vertices.iter().fold(start, |[low, high], v| [low.min(*v), high.max(*v)])
+}
+
+fn point(p: DVec3) -> String {
+    format!("({}, {}, {})", number(p.x), number(p.y), number(p.z))
+}

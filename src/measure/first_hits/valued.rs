@@ -1,0 +1,134 @@
+//! A volume as values that are interpolated, asked at points and along stretches of a ray.
+
+use fearless_simd::Level;
+use glam::{DAffine3, DVec3};
+
+use crate::components::{Classify, Clip, Filter, Material};
+use crate::view::composite::thicken;
+use crate::volume::classification::{Classifier, SharpContour};
+use crate::volume::clipping::Cut;
+use crate::volume::field::{Field, Sampled, Spot};
+use crate::volume::grid::{Grid, Scalars};
+use crate::volume::pyramid::{BLOCK, Pyramid};
+
+/// Halvings of a stretch that holds a crossing.
+const HALVINGS: usize = 16;
+
+/// The values of a volume, and what is seen of them.
+pub(super) struct Valued {
+    /// What is interpolated, and how.
+    pub scalars: Scalars,
+    pub filter: Filter,
+    pub grid: Grid,
+    /// Which cells may be seen, if any are ruled out.
+    pub pyramid: Option<Pyramid>,
+    classifier: Classifier,
+    surfaces: Vec<SharpContour>,
+    cut: Option<Cut>,
+    to_index: DAffine3,
+    level: Level,
+}
+
+impl Valued {
+    /// Values of opacity unit `unit` on a grid, and how they are classified.
+    pub fn new(
+        (scalars, filter): (Scalars, Filter),
+        (grid, unit): (Grid, f64),
+        pyramid: Option<Pyramid>,
+        (classify, material, clip): (&Classify, &Material, Option<&Clip>),
+    ) -> Self {
+        let classifier = Classifier::new(classify, material, unit);
+        Self {
+            surfaces: classifier.surfaces(),
+            classifier,
+            cut: clip.map(|clip| Cut::new(clip, &grid)),
+            to_index: grid.world_to_index(),
+            level: Level::new(),
+            scalars,
+            filter,
+            grid,
+            pyramid,
+        }
+    }
+
+    /// The opacity of a slab around a world point, per opacity unit; `way` is the ray's way through it.
+    pub fn opacity(&self, world: DVec3, way: DVec3) -> f64 {
+        let reach = if self.surfaces.is_empty() { None } else { Some(way) };
+        if !self.may_show(world, reach) {
+            return 0.0;
+        }
+        let Some(Sampled { value, gradient }) = self.sampled(world) else { return 0.0 };
+        let whole = f64::from(self.classifier.opacity(value, gradient));
+        let left = self.cut.as_ref().map_or(1.0, |cut| cut.at(world).left(way));
+        if left >= 1.0 { whole } else { thicken(whole, left) }
+    }
+
+    /// The surfaces without thickness that a stretch around a world point crosses: which part of it lies before each, and its
+    /// opacity, the nearest first.
+    pub fn crossings(&self, middle: DVec3, way: DVec3) -> Vec<(f64, f64)> {
+        if self.surfaces.is_empty() || !self.may_show(middle, Some(way)) {
+            return Vec::new();
+        }
+        let value = |part: f64| {
+            let sampled = self.sampled(middle + way * (part - 0.5));
+            sampled.map_or(f32::NAN, |sampled| sampled.value)
+        };
+        let parts = [0.0, 0.5, 1.0].map(|part| (part, value(part)));
+        let mut found = Vec::new();
+        for surface in &self.surfaces {
+            for half in parts.windows(2) {
+                let above = |value: f32| value >= surface.value;
+                let ([mut low, mut high], [first, last]) =
+                    ([half[0].0, half[1].0], [half[0].1, half[1].1]);
+                if first.is_nan() || last.is_nan() || above(first) == above(last) {
+                    continue;
+                }
+                for _ in 0..HALVINGS {
+                    let part = f64::midpoint(low, high);
+                    let side =
+                        if above(value(part)) == above(first) { &mut low } else { &mut high };
+                    *side = part;
+                }
+                let part = f64::midpoint(low, high);
+                let world = middle + way * (part - 0.5);
+                if self.cut.as_ref().is_none_or(|cut| cut.at(world).inside >= 0.0) {
+                    found.push((part, f64::from(surface.opacity)));
+                }
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
+    }
+
+    /// Where values fall, world: minus their gradient.
+    pub fn slope(&self, world: DVec3) -> DVec3 {
+        let gradient = self.sampled(world).map(|sampled| sampled.gradient).unwrap_or_default();
+        -DVec3::from(gradient.map(f64::from))
+    }
+
+    fn sampled(&self, world: DVec3) -> Option<Sampled> {
+        let index = self.to_index.transform_point3(world).to_array();
+        let last = self.grid.size.map(|n| n as f64 - 1.0);
+        if (0..3).any(|axis| !(0.0..=last[axis]).contains(&index[axis])) {
+            return None;
+        }
+        let cell = index.map(|n| n as usize);
+        let part = std::array::from_fn(|axis| (index[axis] - cell[axis] as f64) as f32);
+        let mut made = [Sampled::default()];
+        let field = Field::new(&self.scalars, &self.grid, self.filter);
+        field.sample(self.level, &[Spot { cell, part }], &mut made);
+        Some(made[0])
+    }
+
+    /// Whether something may be seen at a world point, or within half a `way` of it.
+    fn may_show(&self, world: DVec3, way: Option<DVec3>) -> bool {
+        let Some(pyramid) = &self.pyramid else { return true };
+        let cell = self.to_index.transform_point3(world).to_array().map(|n| n.floor() as i64);
+        let Some(way) = way else {
+            return pyramid.slices().shows(cell.map(|n| n.max(0) as usize));
+        };
+        // Within a block's side of a cell are that block and those around it.
+        let reach = (self.to_index.matrix3 * way).abs().max_element() / 2.0;
+        reach >= BLOCK as f64 || pyramid.slices().distance(cell) <= 1
+    }
+}
