@@ -88,9 +88,9 @@
 //! # The walk of a ray
 //!
 //! `cast` owns the rays of a view. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
-//! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that a polygon's edge is
-//! seen. Rays go in packets: tiles of four by four neighbours on the grid in use. `march` takes a packet through slabs
-//! ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
+//! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that an edge is seen, of a
+//! polygon or a surface of values. Rays go in packets: tiles of four by four neighbours on the grid in use. `march` takes a
+//! packet through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
 //! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
 //! whole packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the
 //! widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
@@ -144,7 +144,9 @@
 //!   sooner, and of opaque surfaces cost half again as much a frame; but of gel that rays go through, under three lights with
 //!   shadows, a frame takes ten times as long. The paper's figures keep colors in any case.
 //! - **A contour of thickness 0 is a surface** of values: where a ray crosses it is found within the slab, so that it is as
-//!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before or behind all of it.
+//!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before or behind all of it. Its
+//!   edges ask for rays as those of polygons do: C_A sees it lit, and C_G its normal in place of a color, so that there are
+//!   more than one a pixel where it ends or hides another part of itself, and not where it bends.
 //! - **A cut is shaded by its plane**, turned to the surface's own normal over a voxel under it: gradients inside the volume
 //!   have nothing to do with where it was cut.
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one

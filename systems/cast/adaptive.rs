@@ -1,8 +1,8 @@
 //! Adaptive sampling and refinement (paper §2 and §6; Levoy, "Volume rendering by adaptive refinement", 1990).
 //!
 //! Rays are first cast on a coarse grid of positions. A square region whose corners differ in C is split into four, down
-//! to a ray a pixel; below that only where the ranges of both C_G and C_A say that a polygon's edge is seen, at that level
-//! and at those before: C knows textures, and where a texture happens to split a region tells nothing of edges. Level after
+//! to a ray a pixel; below that only where the ranges of both C_G and C_A say that an edge is seen, of a polygon or a surface
+//! of values, at that level and at those before: C knows textures, and where a texture happens to split a region tells nothing of edges. Level after
 //! level, over bands of packets: which regions split is decided from the level before alone, so that the picture does not
 //! depend on bands or threads.
 
@@ -24,7 +24,7 @@ pub(crate) struct Refinement<'a, C> {
     crossed: &'a Crossed,
     caster: &'a C,
     array: SampleArray,
-    /// C_A and C_G, where polygons may ask for supersampling.
+    /// C_A and C_G, where polygons, or surfaces of values, may ask for supersampling.
     edges: Option<[Colors; 2]>,
 }
 
@@ -33,11 +33,11 @@ impl<'a, C: Caster> Refinement<'a, C> {
     pub fn new(
         layout: Layout,
         sampling: &'a Sampling,
-        polygons: bool,
+        edges: bool,
         crossed: &'a Crossed,
         caster: &'a C,
     ) -> Self {
-        let below_a_pixel = polygons && sampling.finest < POSITIONS as u32;
+        let below_a_pixel = edges && sampling.finest < POSITIONS as u32;
         let supersampled = below_a_pixel && sampling.coarsest > sampling.finest;
         let blocks = layout.blocks().iter().product();
         let array = SampleArray {

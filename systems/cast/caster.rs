@@ -40,6 +40,13 @@ impl<E: Default> Default for Scratch<E> {
     }
 }
 
+impl<M: Media> BeamCaster<'_, M> {
+    /// Whether there may be edges that ask for more than a ray a pixel.
+    pub fn has_edges(&self) -> bool {
+        !self.polygons.is_empty() || self.media.has_surfaces()
+    }
+}
+
 impl<M: Media> Caster for BeamCaster<'_, M> {
     type Scratch = Scratch<M::Entered>;
 
@@ -92,14 +99,20 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
             let hits = &hits[from as usize..to as usize];
             let color = &mut colors[lane];
             *color = RayColors { full: ray.full.rgba(self.slabs.stop), ..RayColors::default() };
-            if !hits.is_empty() {
+            let surfaces = self.media.has_surfaces();
+            if surfaces || !hits.is_empty() {
                 color.attenuated = ray.attenuated();
                 if self.three_colors {
                     let plain = |hit: &Hit| match self.projections.shade(hit) {
                         Some(_) => (DVec3::ZERO, 0.0),
                         None => self.polygons.plain(hit),
                     };
-                    color.geometric = geometric(hits, plain, self.slabs.stop);
+                    let left = (ray.hits()[0] - from) as usize;
+                    color.geometric = if surfaces {
+                        ray.with_surfaces(&hits[left..], plain, self.slabs.stop)
+                    } else {
+                        geometric(hits, plain, self.slabs.stop)
+                    };
                 }
             }
         }

@@ -11,8 +11,71 @@ use crate::volume::field::{Field, Sampled, Spot};
 /// Halvings of a stretch that holds a crossing, at the most: each is at least as good as the middle of the last two.
 const HALVINGS: usize = 12;
 
-/// What a ray crosses within a slab: the part of the slab before it, its colour and its opacity.
-pub(crate) type Crossings = Vec<(f64, Vec3, f32)>;
+/// How much of a turn counts in C_G: two normals at more than some 25° are as an edge of the default `edge_tolerance`.
+const TURN: f32 = 0.05;
+
+/// A surface that a ray crosses: the part of the slab before it, its colour, its opacity and its normal.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CrossedSurface {
+    /// 0..=1.
+    pub part: f64,
+    /// Lit.
+    pub color: Vec3,
+    /// Its own.
+    pub opacity: f32,
+    /// Of length 1, or zero.
+    pub normal: Vec3,
+}
+
+/// What rays cross within their slabs.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Crossings {
+    /// Room for what one of them crosses.
+    pub met: Vec<CrossedSurface>,
+    /// What each crosses in the slab that was met last.
+    pub sheets: [Sheet; LANES],
+}
+
+/// All surfaces within a slab, without the gel between them: what C_A and C_G see of it, as they see polygons.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sheet {
+    /// Associated colour.
+    pub color: DVec3,
+    /// The normal in place of a colour, associated: where a surface hides another, colours and normals jump, and where it
+    /// only bends or is unevenly lit, one of both does not.
+    pub turn: DVec3,
+    /// Their opacity.
+    pub opacity: f64,
+}
+
+impl Sheet {
+    /// Surfaces, the nearest first.
+    fn of(surfaces: &[CrossedSurface]) -> Self {
+        let (mut seen, mut turn) = (Gathered::NOTHING, Gathered::NOTHING);
+        for crossed in surfaces {
+            let opacity = f64::from(crossed.opacity);
+            seen.under(crossed.color.as_dvec3() * opacity, opacity);
+            turn.under((crossed.normal * TURN).as_dvec3() * opacity, opacity);
+        }
+        Self { color: seen.color, turn: turn.color, opacity: seen.opacity() }
+    }
+
+    /// What is left of it in a sliver that is a part of its slab.
+    pub fn thinned(&self, part: f64) -> Self {
+        let opacity = thicken(self.opacity, part);
+        let left = recolor(self.opacity, opacity, part);
+        Self { color: self.color * left, turn: self.turn * left, opacity }
+    }
+
+    /// Those of volumes that overlap: none hides another.
+    pub fn beside(&self, other: &Self) -> Self {
+        Self {
+            color: self.color + other.color,
+            turn: self.turn + other.turn,
+            opacity: 1.0 - (1.0 - self.opacity) * (1.0 - other.opacity),
+        }
+    }
+}
 
 /// The stretch of a ray that a sample stands for, from its beginning to its end: fixed-point voxel indices.
 pub(crate) struct Stretch {
@@ -101,16 +164,16 @@ pub fn crossing(
 }
 
 /// The slab of some gel with surfaces in it, `ratio` opacity units thick: associated RGBA per opacity unit, of which it is
-/// made again by thickening. Surfaces are by the part of the slab that lies before them, each with colour and opacity.
-pub fn slab(gel: Vec4, surfaces: &mut [(f64, Vec3, f32)], ratio: f64) -> Vec4 {
-    surfaces.sort_by(|a, b| a.0.total_cmp(&b.0));
+/// made again by thickening; and the surfaces alone.
+pub fn slab(gel: Vec4, surfaces: &mut [CrossedSurface], ratio: f64) -> (Vec4, Sheet) {
+    surfaces.sort_by(|a, b| a.part.total_cmp(&b.part));
     let (mut ray, mut passed) = (Gathered::NOTHING, 0.0);
     let (color, opacity) = (gel.truncate().as_dvec3(), f64::from(gel.w));
     let through = |ray: &mut Gathered, part: f64| {
         let thick = thicken(opacity, part * ratio);
         ray.under(color * recolor(opacity, thick, part * ratio), thick);
     };
-    for &mut (part, color, opacity) in surfaces {
+    for &CrossedSurface { part, color, opacity, .. } in &*surfaces {
         through(&mut ray, (part - passed).max(0.0));
         ray.under(color.as_dvec3() * f64::from(opacity), f64::from(opacity));
         passed = part;
@@ -118,5 +181,5 @@ pub fn slab(gel: Vec4, surfaces: &mut [(f64, Vec3, f32)], ratio: f64) -> Vec4 {
     through(&mut ray, (1.0 - passed).max(0.0));
     let unit = thicken(ray.opacity(), 1.0 / ratio);
     let color = ray.color * recolor(ray.opacity(), unit, 1.0 / ratio);
-    color.as_vec3().extend(unit as f32)
+    (color.as_vec3().extend(unit as f32), Sheet::of(surfaces))
 }

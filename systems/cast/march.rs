@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::crossing::Sheet;
 use super::lanes::{LANES, Lanes, each};
 use super::media::Media;
 use crate::view::composite::{Gathered, recolor, thicken};
@@ -67,6 +68,8 @@ pub(crate) struct Gathering {
     attenuated: Gathered,
     /// How much of the ray polygons cover in C_A.
     covered: f64,
+    /// C_G as far as the ray goes, where volumes have surfaces.
+    geometric: Gathered,
     /// Those of the packet's hits that the ray has not come to yet.
     left: [u32; 2],
 }
@@ -74,8 +77,8 @@ pub(crate) struct Gathering {
 impl Gathering {
     /// Nothing gathered yet by a ray that is to meet the hits numbered `[first, end)`.
     pub fn new(hits: [u32; 2]) -> Self {
-        let (full, attenuated) = (Gathered::NOTHING, Gathered::NOTHING);
-        Self { full, attenuated, covered: 0.0, left: hits }
+        let nothing = Gathered::NOTHING;
+        Self { full: nothing, attenuated: nothing, covered: 0.0, geometric: nothing, left: hits }
     }
 
     /// Those of the packet's hits that the ray has not come to yet, `[first, end)`.
@@ -89,6 +92,16 @@ impl Gathering {
         [r as f32, g as f32, b as f32, self.covered as f32]
     }
 
+    /// C_G of a ray that meets surfaces of volumes: as far as it went, and then the polygons that it did not come to.
+    pub fn with_surfaces(
+        &self,
+        hits: &[Hit],
+        plain: impl Fn(&Hit) -> (DVec3, f64),
+        stop: f64,
+    ) -> [f32; 4] {
+        under(self.geometric, hits, plain, stop)
+    }
+
     /// Whether polygons are still to come: only then does C_A go on.
     fn has_hits(&self) -> bool {
         self.left[0] < self.left[1]
@@ -99,11 +112,15 @@ impl Gathering {
     }
 
     #[inline]
-    fn gel(&mut self, color: DVec3, opacity: f64, stop: f64) {
+    fn gel(&mut self, color: DVec3, opacity: f64, sheet: Option<Sheet>, stop: f64) {
         if self.full.through > stop {
             self.full.under(color, opacity);
         }
-        if self.has_hits() {
+        if let Some(sheet) = sheet {
+            self.covered += self.attenuated.through * sheet.opacity;
+            self.attenuated.under(sheet.color, opacity);
+            self.geometric.under(sheet.turn, sheet.opacity);
+        } else if self.has_hits() {
             self.attenuated.under(DVec3::ZERO, opacity);
         }
     }
@@ -115,6 +132,7 @@ impl Gathering {
         }
         self.covered += self.attenuated.through * met.plain_opacity;
         self.attenuated.under(met.plain_color, met.plain_opacity);
+        self.geometric.under(met.plain_color, met.plain_opacity);
     }
 }
 
@@ -144,15 +162,17 @@ pub fn march<M: Media>(
         let cut = if k == eye { open } else { next.at(k, open) };
         for lane in each(met & !cut) {
             let (color, opacity) = media.slab(entered, k, lane);
+            let sheet = media.has_surfaces().then(|| media.sheet(entered, lane));
             let ray = &mut gathered[lane];
-            ray.gel(color, opacity, slabs.stop);
+            ray.gel(color, opacity, sheet, slabs.stop);
             if !ray.is_open(slabs.stop) {
                 open &= !(1 << lane);
             }
         }
         for lane in each(cut) {
             let gel = (met >> lane & 1 == 1).then(|| media.slab(entered, k, lane));
-            let slab = Slab { k, gel, from: slabs.place(k, slabs.eye) };
+            let sheet = (gel.is_some() && media.has_surfaces()).then(|| media.sheet(entered, lane));
+            let slab = Slab { k, gel, sheet, from: slabs.place(k, slabs.eye) };
             slab.split(slabs, hits, |hit| shade(hit, lane), &mut gathered[lane], counts);
             if !gathered[lane].is_open(slabs.stop) {
                 open &= !(1 << lane);
@@ -198,6 +218,8 @@ struct Slab {
     k: i64,
     /// Associated colour and opacity of the whole of it, where there is gel.
     gel: Option<(DVec3, f64)>,
+    /// The surfaces in it, of volumes that have some.
+    sheet: Option<Sheet>,
     /// Where in it the ray begins, 0..1.
     from: f64,
 }
@@ -217,7 +239,8 @@ impl Slab {
             let opacity = opacity.min(1.0);
             let thick = thicken(opacity, part);
             counts.slivers += 1;
-            ray.gel(color * recolor(opacity, thick, part), thick, slabs.stop);
+            let sheet = self.sheet.map(|sheet| sheet.thinned(part));
+            ray.gel(color * recolor(opacity, thick, part), thick, sheet, slabs.stop);
         };
         let mut passed = self.from;
         while ray.has_hits() {
@@ -240,7 +263,16 @@ impl Slab {
 /// C_G of a ray: the polygons alone, as associated RGBA; stops on its own (paper §6). `plain` shades a hit: associated
 /// colour and opacity.
 pub fn geometric(hits: &[Hit], plain: impl Fn(&Hit) -> (DVec3, f64), stop: f64) -> [f32; 4] {
-    let mut ray = Gathered::NOTHING;
+    under(Gathered::NOTHING, hits, plain, stop)
+}
+
+/// The polygons at `hits` behind what was gathered, as associated RGBA.
+fn under(
+    mut ray: Gathered,
+    hits: &[Hit],
+    plain: impl Fn(&Hit) -> (DVec3, f64),
+    stop: f64,
+) -> [f32; 4] {
     for hit in hits {
         if ray.through <= stop {
             break;

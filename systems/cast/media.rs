@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::crossing::Sheet;
 use super::lanes::{Lanes, Packet};
 use crate::view::samples::Counts;
 
@@ -22,6 +23,18 @@ pub(crate) trait Media: Sync {
 
     /// The gel of the slab around sample `k` for a ray that meets it there: associated colour and opacity.
     fn slab(&self, entered: &mut Self::Entered, k: i64, lane: usize) -> (DVec3, f64);
+
+    /// Whether there are surfaces in it, whose edges are sought as those of polygons are.
+    #[inline]
+    fn has_surfaces(&self) -> bool {
+        false
+    }
+
+    /// The surfaces within the slab that a ray met last.
+    #[inline]
+    fn sheet(&self, _: &Self::Entered, _: usize) -> Sheet {
+        Sheet::default()
+    }
 }
 
 /// A scene without a volume.

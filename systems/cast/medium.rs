@@ -3,7 +3,7 @@
 use fearless_simd::{Level, dispatch};
 use glam::{DVec3, Vec4};
 
-use super::crossing::Crossings;
+use super::crossing::{Crossings, Sheet};
 use super::cue::Cue;
 use super::kernel;
 use super::lanes::{LANES, Lanes, Packet};
@@ -30,6 +30,12 @@ pub trait Source: Sync {
         sample: (i64, Lanes),
         seen_ratios_and_room: (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes;
+
+    /// Whether rays may cross surfaces in it.
+    #[inline]
+    fn has_surfaces(&self) -> bool {
+        false
+    }
 
     /// How far from its samples it is looked for, cells; no bit of what is empty as far as that may be missed.
     fn reach(&self, _: &Tile) -> f64 {
@@ -82,7 +88,7 @@ pub(crate) struct Entered {
     pub seen: [Vec4; LANES],
     /// The slab's thickness along each ray against the opacity unit.
     ratios: [f64; LANES],
-    /// Room for what a ray crosses.
+    /// What rays cross.
     crossings: Crossings,
     packet: Option<Packet>,
     bundle: Bundle,
@@ -227,6 +233,16 @@ impl<S: Source> Media for Medium<'_, S> {
             Some(dust) => self.dusty(dust, entered, (lane, k)),
             None => slab(sample, entered.ratios[lane]),
         }
+    }
+
+    #[inline]
+    fn has_surfaces(&self) -> bool {
+        self.source.has_surfaces()
+    }
+
+    #[inline]
+    fn sheet(&self, entered: &Entered, lane: usize) -> Sheet {
+        entered.crossings.sheets[lane]
     }
 }
 

@@ -117,18 +117,18 @@ impl Errand for Refine<'_> {
         let Self { inputs, onlookers: (watch, viewer) } = self;
         let sampling = &inputs.sampling;
         let layout = layout(&inputs.view, sampling);
-        let polygons = !caster.polygons.is_empty();
+        let edges = caster.has_edges();
         let crossed = caster.polygons.crossed(&layout, sampling);
         let mut preview = viewer.map(|viewer| Preview::new(viewer, &inputs.view, sampling));
         if let Some(preview) = &mut preview {
             for first in preview::before(sampling) {
                 let layout = self::layout(&inputs.view, &first);
                 let free = Crossed::default();
-                let sketch = Refinement::new(layout, &first, polygons, &free, &caster);
+                let sketch = Refinement::new(layout, &first, edges, &free, &caster);
                 preview.level(&sketch.refine(watch, None)?);
             }
         }
-        let array = Refinement::new(layout, sampling, polygons, &crossed, &caster)
+        let array = Refinement::new(layout, sampling, edges, &crossed, &caster)
             .refine(watch, preview.as_mut())?;
         Ok(Samples(Arc::new(array)))
     }

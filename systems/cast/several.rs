@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec4};
 
+use super::crossing::Sheet;
 use super::kernel::GelSlices;
 use super::lanes::{Lanes, Packet};
 use super::media::Media;
@@ -114,5 +115,20 @@ impl Media for Several<'_> {
             parts.push(with_medium!(medium, inner => inner.slab(&mut within.entered, k, lane)));
         }
         overlap(parts)
+    }
+
+    fn has_surfaces(&self) -> bool {
+        self.media.iter().any(|medium| with_medium!(medium, inner => inner.has_surfaces()))
+    }
+
+    fn sheet(&self, entered: &EnteredAll, lane: usize) -> Sheet {
+        let there = self.media.iter().zip(&entered.each);
+        let there = there.filter(|(medium, within)| {
+            within.met >> lane & 1 == 1 && with_medium!(medium, inner => inner.has_surfaces())
+        });
+        let sheets = there.map(
+            |(medium, within)| with_medium!(medium, inner => inner.sheet(&within.entered, lane)),
+        );
+        sheets.fold(Sheet::default(), |sum, sheet| sum.beside(&sheet))
     }
 }

@@ -4,7 +4,7 @@ use fearless_simd::Level;
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use hecs::Entity;
 
-use super::crossing::{self, Crossings, Stretch, index, spot};
+use super::crossing::{self, CrossedSurface, Crossings, Sheet, Stretch, index, spot};
 use super::inputs::StatedValues;
 use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
@@ -107,14 +107,15 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Puts the surfaces that a ray crosses within a slab into what it sees there; `middle` is the value at its sample.
+    /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; `middle` is the value at
+    /// its sample.
     fn cross(
         &self,
         level: Level,
         fade: f32,
         (stretch, middle): (&Stretch, f32),
-        (seen, ratio, met): (&mut Vec4, f64, &mut Crossings),
-    ) {
+        (seen, ratio, met): (&mut Vec4, f64, &mut Vec<CrossedSurface>),
+    ) -> Sheet {
         let mut ends = [Sampled::default(); 2];
         let spots = [0.0, 1.0].map(|part| spot(stretch.at(part)));
         self.field.sample(level, &spots, &mut ends);
@@ -131,15 +132,19 @@ impl<'a> Values<'a> {
                 let place = index(stretch.at(part));
                 let world = self.index_to_world.transform_point3(place);
                 if self.cut.as_ref().is_none_or(|cut| cut.at(world).inside >= 0.0) {
-                    let reflected = self.reflected(surface.color, normal(sampled.gradient), world);
+                    let normal = normal(sampled.gradient);
+                    let reflected = self.reflected(surface.color, normal, world);
                     let color = surface.color * self.how.ambient + reflected * fade;
-                    met.push((part, color, surface.opacity));
+                    met.push(CrossedSurface { part, color, opacity: surface.opacity, normal });
                 }
             }
         }
-        if !met.is_empty() {
-            *seen = crossing::slab(*seen, met, ratio);
+        if met.is_empty() {
+            return Sheet::default();
         }
+        let (slab, sheet) = crossing::slab(*seen, met, ratio);
+        *seen = slab;
+        sheet
     }
 
     /// What comes back of all lights.
@@ -172,6 +177,10 @@ fn part_of(whole: Vec4, section: Section, way: DVec3) -> Vec4 {
 }
 
 impl Source for Values<'_> {
+    fn has_surfaces(&self) -> bool {
+        !self.surfaces.is_empty()
+    }
+
     fn reach(&self, tile: &Tile) -> f64 {
         if self.surfaces.is_empty() { 0.0 } else { crossing::reach(tile) }
     }
@@ -197,8 +206,8 @@ impl Source for Values<'_> {
         if !self.surfaces.is_empty() {
             for (lane, sampled) in each(met).zip(&sampled) {
                 let stretch = Stretch::of(tile, lane, k);
-                let slab = (&mut seen[lane], ratios[lane], &mut *crossings);
-                self.cross(level, fade, (&stretch, sampled.value), slab);
+                let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
+                crossings.sheets[lane] = self.cross(level, fade, (&stretch, sampled.value), slab);
             }
         }
         met

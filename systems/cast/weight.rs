@@ -4,12 +4,13 @@ use glam::DVec3;
 use hecs::World;
 
 use super::targets::Outlines;
-use crate::components::{DepthCue, Sampling, Surface, View, Voxelize};
+use crate::components::{Classify, DepthCue, Sampling, Surface, View, Voxelize};
 use crate::polygon::face::{Face, Faces};
 use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::samples::{Layout, POSITIONS};
+use crate::volume::scene_volumes::{Content, with_content};
 
 /// Bytes of a color of a block, and of the positions between in a block that is opened.
 const COLOR: u64 = 16;
@@ -20,6 +21,8 @@ const MOST_PAIRS: usize = 1 << 22;
 
 /// The part of the outlines that is expected to be seen: what is hidden, or edges of facets alike, is not split.
 const SEEN: f64 = 0.5;
+/// The part of a picture that silhouettes of surfaces between voxels are expected to pass through.
+const SILHOUETTES: f64 = 0.1;
 
 /// The most bytes, and the part of them that is expected.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +31,7 @@ pub(crate) struct Weight {
     pub part: f64,
 }
 
-/// What the rays of a view take: C at every pixel; where polygons are traced, C_A and C_G too; and the positions between
+/// What the rays of a view take: C at every pixel; where polygons are traced or values have surfaces, C_A and C_G too; and the positions between
 /// where a region may be split below a ray a pixel.
 pub(crate) fn of(
     world: &World,
@@ -39,7 +42,8 @@ pub(crate) fn of(
     let traced: Vec<&Faces> = query.iter().collect();
     let blocks = layout.blocks().iter().product::<usize>() as u64;
     let all_open = (sampling.coarsest as usize) < POSITIONS;
-    let supersampled = traced.iter().any(|faces| !faces.0.is_empty())
+    let surfaces = has_surfaces(world);
+    let supersampled = (surfaces || traced.iter().any(|faces| !faces.0.is_empty()))
         && (sampling.finest as usize) < POSITIONS
         && sampling.coarsest > sampling.finest;
     let colors = if supersampled { 3 } else { 1 };
@@ -47,6 +51,8 @@ pub(crate) fn of(
         (blocks, 1.0)
     } else if !supersampled {
         (0, 1.0)
+    } else if surfaces {
+        (blocks, SILHOUETTES)
     } else if world.query::<&DepthCue>().iter().next().is_some() {
         (blocks, SEEN)
     } else {
@@ -57,6 +63,14 @@ pub(crate) fn of(
     let opened = open * colors * FINE;
     let most = always + opened;
     Weight { most, part: (always as f64 + opened as f64 * seen) / most.max(1) as f64 }
+}
+
+/// Whether a volume of values has a surface, a contour without thickness.
+fn has_surfaces(world: &World) -> bool {
+    with_content(world, Content::Values).iter().any(|volume| {
+        let classify = world.get::<&Classify>(volume.entity);
+        classify.is_ok_and(|classify| classify.iso.iter().any(|c| c.thickness_voxels <= 0.0))
+    })
 }
 
 /// The most blocks that are opened: those that outlines and intersections of polygons pass through, and those to the right

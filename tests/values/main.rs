@@ -3,6 +3,7 @@
 mod agreement;
 mod convergence;
 mod lossless;
+mod silhouettes;
 mod surfaces;
 mod thrift;
 
