@@ -147,6 +147,9 @@
 //!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before or behind all of it. Its
 //!   edges ask for rays as those of polygons do: C_A sees it lit, and C_G its normal in place of a color, so that there are
 //!   more than one a pixel where it ends or hides another part of itself, and not where it bends.
+//! - **Slabs of values may be integrated** (`integrate`): a transfer function is taken as the scalar goes straight from a slab's
+//!   beginning to its sample and on to its end, piece by piece in closed form, so that a sharp one does not ask for short
+//!   steps: at one step a voxel it is off by a fifth to a thirtieth of what middles of slabs are. Shading stays that of the sample.
 //! - **A cut is shaded by its plane**, turned to the surface's own normal over a voxel under it: gradients inside the volume
 //!   have nothing to do with where it was cut.
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one

@@ -94,7 +94,7 @@ pub const NO_KNOBS: [&str; 2] = ["filter", "pixel_filter"];
 const HALF_STEPS: [f64; 2] = [2.0 / 131_072.0, 2.0 / 512.0];
 
 /// Every knob.
-pub static KNOBS: [Knob; 9] = [
+pub static KNOBS: [Knob; 10] = [
     Knob {
         key: "distance_mm",
         range: &[
@@ -217,11 +217,16 @@ pub static KNOBS: [Knob; 9] = [
         bound: Bound::Nothing,
         is_monotone: false,
         promise: "With it no polygon falls between the first rays.",
-        set: |sampling, setting, _| {
-            if let Setting::Truth(truth) = setting {
-                sampling.outlines = truth;
-            }
-        },
+        set: |sampling, setting, _| truth(&mut sampling.outlines, setting),
+    },
+    Knob {
+        key: "integrate",
+        range: &[Setting::Truth(false), Setting::Truth(true)],
+        of_exact: false,
+        bound: Bound::Nothing,
+        is_monotone: true,
+        promise: "Of values, a transfer function is exact for a scalar that is straight over each half of a slab.",
+        set: |sampling, setting, _| truth(&mut sampling.integrate, setting),
     },
     Knob {
         key: "texel",
@@ -253,6 +258,12 @@ impl Sampling {
             knob.turn(&mut exact, knob.exact(), 1.0);
         }
         exact
+    }
+}
+
+fn truth(knob: &mut bool, setting: Setting) {
+    if let Setting::Truth(truth) = setting {
+        *knob = truth;
     }
 }
 

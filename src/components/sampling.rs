@@ -37,6 +37,10 @@ pub struct Sampling {
     pub texel: TexelKind,
     /// What values between voxels are, of a volume that states `reconstruct = "values"`; colors are interpolated linearly.
     pub filter: Filter,
+    /// Whether a transfer function of such values is integrated over each slab, from the value at its beginning to that at its
+    /// end, in place of what it is in the middle: a sharp one then does not ask for short steps. Where a voxel is no finite
+    /// number it is not.
+    pub integrate: bool,
     /// What a pixel is of the positions around it.
     pub pixel_filter: PixelFilter,
 }
@@ -54,6 +58,7 @@ impl Default for Sampling {
             outlines: true,
             texel: TexelKind::Auto,
             filter: Filter::Linear,
+            integrate: false,
             pixel_filter: PixelFilter::Box,
         }
     }

@@ -64,6 +64,27 @@ impl<'a> Field<'a> {
         });
     }
 
+    /// Fills in the values of the field at some spots, to the last bit those that [`sample`](Self::sample) finds.
+    pub fn values(&self, level: Level, spots: &[Spot], made: &mut [f32]) {
+        with_scalars!(self.scalars, values => {
+            dispatch!(level, _simd => self.values_all(values, spots, made));
+        });
+    }
+
+    #[inline(always)]
+    fn values_all<T: Scalar>(&self, values: &[T], spots: &[Spot], made: &mut [f32]) {
+        for (spot, made) in spots.iter().zip(made) {
+            let (x, y) = (self.axis(spot, 0, 1), self.axis(spot, 1, self.size[0]));
+            let z = self.axis(spot, 2, self.size[0] * self.size[1]);
+            let axes = [&x, &y, &z];
+            *made = if self.filter == Filter::Linear {
+                gather_value::<T, true>(values, axes)
+            } else {
+                gather_value::<T, false>(values, axes)
+            };
+        }
+    }
+
     #[inline(always)]
     fn sample_all<T: Scalar>(&self, values: &[T], spots: &[Spot], made: &mut [Sampled]) {
         for (spot, made) in spots.iter().zip(made) {
@@ -116,20 +137,24 @@ type Block = [[[f32; 4]; 4]; 4];
 fn block<T: Scalar, const LINEAR: bool>(values: &[T], [x, y, z]: [&Axis; 3]) -> Block {
     let mut block = [[[0.0; 4]; 4]; 4];
     for (k, slice) in block.iter_mut().enumerate() {
-        for (j, row) in slice.iter_mut().enumerate() {
-            if LINEAR && !is_inner(j) && !is_inner(k) {
-                continue;
-            }
-            let first = z.at[k] + y.at[j];
-            if x.whole {
-                let four = &values[first + x.at[0]..][..4];
-                *row = [four[0].value(), four[1].value(), four[2].value(), four[3].value()];
-            } else {
-                *row = x.at.map(|at| values[first + at].value());
+        for (j, made) in slice.iter_mut().enumerate() {
+            if !LINEAR || is_inner(j) || is_inner(k) {
+                *made = row(values, x, z.at[k] + y.at[j]);
             }
         }
     }
     block
+}
+
+/// Four voxels of the row that begins at `first`.
+#[inline(always)]
+fn row<T: Scalar>(values: &[T], x: &Axis, first: usize) -> [f32; 4] {
+    if x.whole {
+        let four = &values[first + x.at[0]..][..4];
+        [four[0].value(), four[1].value(), four[2].value(), four[3].value()]
+    } else {
+        x.at.map(|at| values[first + at].value())
+    }
 }
 
 /// Whether a voxel of an axis is one of the two that the spot lies between.
@@ -173,14 +198,37 @@ fn gather<T: Scalar, const LINEAR: bool>(values: &[T], axes: [&Axis; 3]) -> (f32
         }
         along_z = add(row_sum, z.taps.slopes[k], along_z);
     }
-    let of = |row: [f32; 4], taps: &[f32; 4], inner: bool| {
-        let middle = row[1] * taps[1] + row[2] * taps[2];
-        if inner { middle } else { (row[0] * taps[0] + row[3] * taps[3]) + middle }
-    };
     let Taps { weights, slopes } = &x.taps;
-    let gradient =
-        [of(sum, slopes, false), of(along_y, weights, LINEAR), of(along_z, weights, LINEAR)];
-    (base + of(sum, weights, LINEAR), gradient)
+    let gradient = [
+        across(sum, slopes, false),
+        across(along_y, weights, LINEAR),
+        across(along_z, weights, LINEAR),
+    ];
+    (base + across(sum, weights, LINEAR), gradient)
+}
+
+/// The value alone.
+#[inline(always)]
+fn gather_value<T: Scalar, const LINEAR: bool>(values: &[T], [x, y, z]: [&Axis; 3]) -> f32 {
+    let base = values[z.at[1] + y.at[1] + x.at[1]].value();
+    let inner = |tap: usize| !LINEAR || is_inner(tap);
+    let mut sum = [0.0; 4];
+    for k in (0..4).filter(|&k| inner(k)) {
+        let mut row_sum = [0.0; 4];
+        for j in (0..4).filter(|&j| inner(j)) {
+            let row = row(values, x, z.at[k] + y.at[j]).map(|value| value - base);
+            row_sum = add(row, y.taps.weights[j], row_sum);
+        }
+        sum = add(row_sum, z.taps.weights[k], sum);
+    }
+    base + across(sum, &x.taps.weights, LINEAR)
+}
+
+/// A row of numbers, each by what it counts; of a linear field the two in the middle.
+#[inline(always)]
+fn across(row: [f32; 4], taps: &[f32; 4], inner: bool) -> f32 {
+    let middle = row[1] * taps[1] + row[2] * taps[2];
+    if inner { middle } else { (row[0] * taps[0] + row[3] * taps[3]) + middle }
 }
 
 #[inline(always)]
@@ -191,93 +239,4 @@ fn finite(gradient: Vec3) -> Vec3 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const ALL: [Filter; 4] =
-        [Filter::Linear, Filter::Cubic, Filter::CatmullRom, Filter::Interpolating];
-
-    fn levels() -> Vec<Level> {
-        let best = Level::new();
-        let mut levels = vec![best, Level::baseline()];
-        #[cfg(target_arch = "x86_64")]
-        {
-            levels.extend(best.as_avx2().map(Level::Avx2));
-            levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-        }
-        levels
-    }
-
-    /// Spots all over a grid, on its borders and on voxels too.
-    fn spots(size: [usize; 3]) -> Vec<Spot> {
-        let all = 0..4 * size.iter().product::<usize>();
-        let part = |n: usize| (n % 5) as f32 / 4.0;
-        let spot = |at: usize| {
-            let cell = [at % size[0], at / size[0] % size[1], at / (size[0] * size[1]) % size[2]];
-            Spot { cell, part: [part(at), part(at / 3), part(at * 7 / 5)] }
-        };
-        all.map(spot).collect()
-    }
-
-    fn sampled(field: &Field, level: Level, spots: &[Spot]) -> Vec<Sampled> {
-        let mut made = vec![Sampled::default(); spots.len()];
-        field.sample(level, spots, &mut made);
-        made
-    }
-
-    #[test]
-    fn a_linear_field_and_its_gradient_are_exact_in_every_filter_up_to_the_borders() {
-        let grid = Grid::axis_aligned([5, 2, 3], [0.5, 2.0, -1.0], [0.0; 3]).unwrap();
-        let value = |x: usize, y: usize, z: usize| (3 * x + 8 * y + 5 * z) as u16;
-        let voxels: Vec<u16> = (0..30).map(|at| value(at % 5, at / 5 % 2, at / 10)).collect();
-        let scalars = Scalars::from(voxels);
-        for filter in ALL {
-            let field = Field::new(&scalars, &grid, filter);
-            for spot in spots(grid.size) {
-                let inside = (0..3).all(|axis| spot.cell[axis] + 1 < grid.size[axis]);
-                let place: [f32; 3] =
-                    std::array::from_fn(|axis| spot.cell[axis] as f32 + spot.part[axis]);
-                let Sampled { value, gradient } = sampled(&field, Level::new(), &[spot])[0];
-                let expected = 3.0 * place[0] + 8.0 * place[1] + 5.0 * place[2];
-                assert!(!inside || (value - expected).abs() < 1e-4, "{filter:?} {spot:?} {value}");
-                let [x, y, z] = gradient;
-                let slope = (x - 6.0).abs().max((y - 4.0).abs()).max((z + 5.0).abs());
-                assert!(slope < 1e-4, "{filter:?} {spot:?} {gradient:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn no_bit_depends_on_the_set_of_instructions() {
-        let grid = Grid::axis_aligned([7, 6, 5], [0.7, 1.1, 0.9], [0.0; 3]).unwrap();
-        let voxels: Vec<f32> = (0..210).map(|at| (at * at % 97) as f32 / 7.0).collect();
-        let scalars = Scalars::from(voxels);
-        for filter in ALL {
-            let field = Field::new(&scalars, &grid, filter);
-            let spots = spots(grid.size);
-            let best = sampled(&field, Level::new(), &spots);
-            for level in levels() {
-                assert_eq!(sampled(&field, level, &spots), best, "{filter:?} {level:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn what_is_no_number_is_told_and_where_nothing_changes_there_is_no_gradient() {
-        let grid = Grid::axis_aligned([6; 3], [0.7, 1.1, 0.9], [0.0; 3]).unwrap();
-        let mut voxels = vec![0.3_f32; 216];
-        let constant = Scalars::from(&voxels);
-        voxels[0] = f32::NAN;
-        let holed = Scalars::from(voxels);
-        for filter in ALL {
-            let same = sampled(&Field::new(&constant, &grid, filter), Level::new(), &spots([6; 3]));
-            assert!(same.iter().all(|s| *s == Sampled { value: 0.3, gradient: [0.0; 3] }));
-            let field = Field::new(&holed, &grid, filter);
-            let near = Spot { cell: [0; 3], part: [0.5; 3] };
-            let far = Spot { cell: [3; 3], part: [0.5; 3] };
-            let made = sampled(&field, Level::new(), &[near, far]);
-            assert!(made[0].value.is_nan() && made[0].gradient == [0.0; 3]);
-            assert_eq!(made[1], Sampled { value: 0.3, gradient: [0.0; 3] });
-        }
-    }
-}
+mod tests;

@@ -76,6 +76,14 @@ impl Ranges {
         self.0.nan_voxels
     }
 
+    /// Whether every voxel holds a finite number.
+    #[must_use]
+    pub fn are_finite(&self) -> bool {
+        let Found { bricks, nan_voxels, .. } = &*self.0;
+        *nan_voxels == 0
+            && bricks.iter().all(|range| range.low.is_finite() && range.high.is_finite())
+    }
+
     /// Bytes that the ranges take.
     #[must_use]
     pub fn bytes(&self) -> u64 {
@@ -204,12 +212,17 @@ mod tests {
         assert_eq!(ranges.around([0; 3]), Range { low: 3.0, high: 3.0, spread: 0.0 });
         assert_eq!(ranges.around([2, 0, 0]).spread, f32::INFINITY);
         assert_eq!(ranges.around([1; 3]).spread, 0.0);
+        assert!(!ranges.are_finite());
+        let infinite =
+            Scalars::F32(Shared::new(vec![0.0, f32::INFINITY, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+        assert!(!check(&infinite, [2; 3]).are_finite());
     }
 
     #[test]
     fn a_spread_is_known_where_numbers_of_32_bits_are_alike() {
         let values = (0..512).map(|at| (1_u64 << 60) + at).collect();
         let ranges = check(&Scalars::U64(Shared::new(values)), [8; 3]);
+        assert!(ranges.are_finite());
         let Range { low, high, spread } = ranges.around([0; 3]);
         assert!(low == high && spread == 511.0);
     }

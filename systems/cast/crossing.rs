@@ -34,6 +34,15 @@ pub(crate) struct Crossings {
     pub met: Vec<CrossedSurface>,
     /// What each crosses in the slab that was met last.
     pub sheets: [Sheet; LANES],
+    /// The value where the slab that was met last ends, and the number of the slab that begins there.
+    pub ends: [(i64, f32); LANES],
+}
+
+impl Crossings {
+    /// Forgets where slabs ended: other rays begin.
+    pub fn begin(&mut self) {
+        self.ends = [(i64::MIN, 0.0); LANES];
+    }
 }
 
 /// All surfaces within a slab, without the gel between them: what C_A and C_G see of it, as they see polygons.
@@ -147,7 +156,10 @@ pub fn crossing(
         part = (a * fb - b * fa) / (fb - fa);
         field.sample(level, &[spot(stretch.at(part))], &mut made);
         let f = f64::from(made[0].value - value);
-        if f.is_nan() || f.abs() <= near {
+        if f.is_nan() {
+            return None;
+        }
+        if f.abs() <= near {
             break;
         }
         if (f >= 0.0) == (fa >= 0.0) {

@@ -83,6 +83,8 @@ pub(crate) struct StatedValues {
     /// What is interpolated: the volume's own, or a spline's coefficients.
     pub scalars: Scalars,
     pub filter: Filter,
+    /// Whether slabs are integrated: where it is asked for, and all voxels are numbers, so that no value is passed over.
+    pub integrate: bool,
     pub classify: Classify,
     pub material: Material,
     pub clip: Option<Clip>,
@@ -106,7 +108,7 @@ impl Inputs {
             sampling: sampling.clone(),
             extent,
             cue,
-            volumes: placed(world, sampling.filter),
+            volumes: placed(world, sampling),
             strengths: strengths(world, &lamps),
             polygons,
             lamps,
@@ -158,10 +160,10 @@ fn shafts(world: &World) -> Vec<StatedShaft> {
 }
 
 /// The scene's volumes as far as they are seen, in its order.
-fn placed(world: &World, filter: Filter) -> Vec<Placed> {
+fn placed(world: &World, sampling: &Sampling) -> Vec<Placed> {
     let placed = |SceneVolume { entity, grid, unit, content }| {
         let content = if content == scene_volumes::Content::Values {
-            Sampled::Values(Box::new(values(world, entity, filter)?))
+            Sampled::Values(Box::new(values(world, entity, sampling)?))
         } else {
             Sampled::Gel((*world.get::<&Gel>(entity).ok()?).clone())
         };
@@ -172,7 +174,7 @@ fn placed(world: &World, filter: Filter) -> Vec<Placed> {
 }
 
 /// What is stated of a volume whose values are sampled.
-fn values(world: &World, entity: Entity, filter: Filter) -> Option<StatedValues> {
+fn values(world: &World, entity: Entity, sampling: &Sampling) -> Option<StatedValues> {
     type Stated<'a> = (&'a Scalars, &'a Classify, Option<&'a Material>, Option<&'a Clip>);
     let mut query = world.query_one::<Stated<'_>>(entity);
     let (scalars, classify, material, clip) = query.get().ok()?;
@@ -181,7 +183,9 @@ fn values(world: &World, entity: Entity, filter: Filter) -> Option<StatedValues>
     let made = world.get::<&Coefficients>(entity).ok();
     Some(StatedValues {
         scalars: made.map_or_else(|| scalars.clone(), |made| made.values.clone()),
-        filter,
+        filter: sampling.filter,
+        integrate: sampling.integrate
+            && world.get::<&Ranges>(entity).is_ok_and(|ranges| ranges.are_finite()),
         classify: classify.clone(),
         material,
         clip: clip.cloned(),

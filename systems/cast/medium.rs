@@ -173,7 +173,11 @@ impl<S: Source> Media for Medium<'_, S> {
         }
         entered.packet = Some(*packet);
         entered.next = i64::MIN;
-        entered.bundle = Bundle::of(&entered.tile, self.pyramid, self.source.reach(&entered.tile));
+        let reach = self.source.reach(&entered.tile);
+        if reach > 0.0 {
+            entered.crossings.begin();
+        }
+        entered.bundle = Bundle::of(&entered.tile, self.pyramid, reach);
         entered.ratios = [self.ratio; LANES];
         if !self.walk.is_parallel() {
             entered.ratios = std::array::from_fn(|lane| {

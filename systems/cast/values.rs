@@ -6,6 +6,7 @@ use hecs::Entity;
 
 use super::crossing::{self, CrossedSurface, Crossings, Sheet, Stretch, index, spot};
 use super::inputs::StatedValues;
+use super::integrated::{self, Ends};
 use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
 use crate::light::shading::{Lamp, Lamps, Reflectance};
@@ -31,6 +32,8 @@ pub struct Values<'a> {
     classifier: Classifier,
     /// Contours without thickness.
     surfaces: Vec<SharpContour>,
+    /// Whether slabs are integrated, from one end to the other.
+    integrated: bool,
     cut: Option<Cut>,
     lamps: &'a Lamps,
     how: Reflectance,
@@ -44,10 +47,12 @@ impl<'a> Values<'a> {
         (grid, unit): (&Grid, f64),
         pyramid: Option<PyramidSlices<'a>>,
     ) -> Self {
-        let StatedValues { scalars, filter, classify, material, clip, lamps, strengths } = stated;
+        let StatedValues { scalars, filter, classify, material, clip, lamps, strengths, .. } =
+            stated;
         let classifier = Classifier::new(classify, material, unit);
         Self {
             surfaces: classifier.surfaces(),
+            integrated: stated.integrate && classifier.integrates(),
             classifier,
             field: Field::new(scalars, grid, *filter),
             pyramid,
@@ -66,14 +71,28 @@ impl<'a> Values<'a> {
         [self.index_to_world.transform_point3(place), self.index_to_world.matrix3 * step]
     }
 
-    /// Associated RGBA per opacity unit; of its reflected part `fade` is left.
-    fn look(&self, sampled: &Sampled, ray: impl FnOnce() -> [DVec3; 2], fade: f32) -> Vec4 {
+    /// Whether what a sample shows is found around it.
+    fn looks_around(&self) -> bool {
+        self.integrated || !self.surfaces.is_empty()
+    }
+
+    /// Associated RGBA per opacity unit of a sample that stands for a slab; of its reflected part `fade` is left.
+    fn look(
+        &self,
+        (sampled, slab): (&Sampled, Option<Ends>),
+        ray: impl FnOnce() -> [DVec3; 2],
+        fade: f32,
+    ) -> Vec4 {
         let Sampled { value, gradient } = *sampled;
-        let alpha = self.classifier.opacity(value, gradient);
+        let integral = slab.filter(|slab| slab.are_finite(value));
+        let integral = integral.map(|slab| slab.integral(&self.classifier, sampled));
+        let alpha =
+            integral.map_or_else(|| self.classifier.opacity(value, gradient), |(_, alpha)| alpha);
         if alpha <= 0.0 {
             return Vec4::ZERO;
         }
-        let color = self.classifier.color(value, gradient);
+        let color =
+            integral.map_or_else(|| self.classifier.color(value, gradient), |(color, _)| color);
         if self.cut.is_none() && self.strengths.iter().all(Option::is_none) {
             let reflected = self.reflected(color, normal(gradient), DVec3::ZERO);
             return self.lit(color, reflected, fade, alpha);
@@ -85,7 +104,7 @@ impl<'a> Values<'a> {
         section.map_or(whole, |section| part_of(whole, section, way))
     }
 
-    /// Which rays may meet something at a sample, or as far from it as surfaces are looked for.
+    /// Which rays may meet something at a sample, or as far from it as is looked.
     fn near(&self, tile: &Tile, k: i64, lanes: Lanes) -> Lanes {
         let Some(pyramid) = self.pyramid else { return lanes };
         let shows = |lane: &usize| {
@@ -98,7 +117,7 @@ impl<'a> Values<'a> {
             pyramid.is_near(reaching, cell) == Some(true)
         };
         let set = |set: Lanes, lane: usize| set | 1 << lane;
-        if self.surfaces.is_empty() {
+        if !self.looks_around() {
             return each(lanes).filter(shows).fold(0, set);
         }
         match PyramidSlices::reaching(crossing::reach(tile)) {
@@ -182,7 +201,7 @@ impl Source for Values<'_> {
     }
 
     fn reach(&self, tile: &Tile) -> f64 {
-        if self.surfaces.is_empty() { 0.0 } else { crossing::reach(tile) }
+        if self.looks_around() { crossing::reach(tile) } else { 0.0 }
     }
 
     fn meet(
@@ -200,8 +219,15 @@ impl Source for Values<'_> {
         let middles = each(met).map(|lane| spot(tile.at_sample(lane, k)));
         let found = spots.iter_mut().zip(middles).map(|(made, spot)| *made = spot).count();
         self.field.sample(level, &spots[..found], &mut sampled);
+        let slabs = if self.integrated {
+            integrated::ends((&self.field, level), tile, (k, met), &mut crossings.ends)
+        } else {
+            [[0.0; 2]; LANES]
+        };
         for (lane, sampled) in each(met).zip(&sampled) {
-            seen[lane] = self.look(sampled, || self.world(tile, lane, k), fade);
+            let slab = Ends { values: slabs[lane], ratio: ratios[lane] };
+            let slab = self.integrated.then_some(slab);
+            seen[lane] = self.look((sampled, slab), || self.world(tile, lane, k), fade);
         }
         if !self.surfaces.is_empty() {
             for (lane, sampled) in each(met).zip(&sampled) {

@@ -143,6 +143,7 @@ fn world(case: &Case, skip: Skip) -> World {
     let sampling = Sampling {
         skip,
         filter: FILTERS[case.filter],
+        integrate: case.extras & 16 == 16,
         distance_mm: Some(case.step * spacing),
         ..Sampling::default()
     };

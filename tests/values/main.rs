@@ -2,6 +2,7 @@
 
 mod agreement;
 mod convergence;
+mod integrated;
 mod lossless;
 mod silhouettes;
 mod surfaces;

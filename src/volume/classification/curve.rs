@@ -35,6 +35,31 @@ impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Curve<V> {
         Some(low.1 * (1.0 - toward) + high.1 * toward)
     }
 
+    /// The straight pieces between two places that are finite and not the same, in the order in which they are passed: the
+    /// places and values of their ends.
+    pub fn pieces(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [(f64, V); 2]> {
+        let (points, [low, high]) = (&self.0, [from.min(to), from.max(to)]);
+        let first = points.partition_point(|(at, _)| *at <= low);
+        let last = points.partition_point(|(at, _)| *at < high).max(first);
+        let count = if points.is_empty() { 0 } else { last + 1 - first };
+        (0..count).filter_map(move |n| {
+            let right = if from < to { first + n } else { last - n };
+            let ends = [right.checked_sub(1).and_then(|left| points.get(left)), points.get(right)];
+            let at = |place: f64| {
+                let [left, right] = [ends[0].or(ends[1]), ends[1].or(ends[0])];
+                // A curve without a point has no piece.
+                let (left, right) = (left.unwrap_or(&points[0]), right.unwrap_or(&points[0]));
+                let span = right.0 - left.0;
+                let toward = if span > 0.0 { (place - left.0) / span } else { 0.0 };
+                (place, left.1 * (1.0 - toward) + right.1 * toward)
+            };
+            let begin = ends[0].map_or(low, |left| left.0.max(low));
+            let end = ends[1].map_or(high, |right| right.0.min(high));
+            (begin < end)
+                .then(|| if from < to { [at(begin), at(end)] } else { [at(end), at(begin)] })
+        })
+    }
+
     /// The first and last place; none without points.
     pub fn ends(&self) -> Option<[f64; 2]> {
         Some([self.0.first()?.0, self.0.last()?.0])
@@ -122,6 +147,19 @@ mod tests {
         let at = |place: f64| curve.value(place).unwrap();
         assert_eq!([at(0.5), at(1.0), at(1.5)], [0.125, 0.75, 0.875]);
         assert_eq!(Curve::new([(1.0, 0.25), (1.0, 0.75)]).value(1.0), Some(0.75));
+    }
+
+    #[test]
+    fn pieces_are_passed_in_order_and_a_step_is_between_two_of_them() {
+        let curve = Curve::new([(0.0, 0.0), (1.0, 0.25), (1.0, 0.75), (2.0, 1.0)]);
+        let rising = [[(0.5, 0.125), (1.0, 0.25)], [(1.0, 0.75), (1.5, 0.875)]];
+        assert_eq!(curve.pieces([0.5, 1.5]).collect::<Vec<_>>(), rising);
+        let falling: Vec<_> = rising.iter().rev().map(|[a, b]| [*b, *a]).collect();
+        assert_eq!(curve.pieces([1.5, 0.5]).collect::<Vec<_>>(), falling);
+        assert_eq!(curve.pieces([3.0, 5.0]).collect::<Vec<_>>(), [[(3.0, 1.0), (5.0, 1.0)]]);
+        let all: Vec<_> = curve.pieces([-1.0, 1.0]).collect();
+        assert_eq!(all, [[(-1.0, 0.0), (0.0, 0.0)], [(0.0, 0.0), (1.0, 0.25)]]);
+        assert_eq!(Curve::<f64>::new([]).pieces([0.0, 1.0]).count(), 0);
     }
 
     #[test]

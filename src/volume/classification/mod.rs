@@ -2,6 +2,7 @@
 
 mod contour;
 mod curve;
+mod integral;
 mod mixture;
 mod numbers;
 mod regions;
@@ -13,6 +14,7 @@ use crate::components::{Classify, Material};
 use crate::volume::ranges::Range;
 use contour::Contours;
 pub use contour::SharpContour;
+pub use integral::Piece;
 use mixture::Mixture;
 use numbers::fraction;
 use regions::Regions;
@@ -135,6 +137,22 @@ impl Classifier {
             How::Contours(contours) => contours.surfaces(),
             _ => Vec::new(),
         }
+    }
+
+    /// Whether slabs may be integrated [`along`](Self::along): a transfer function, of a scalar alone.
+    #[must_use]
+    pub fn integrates(&self) -> bool {
+        matches!(self.how, How::Transfer(_))
+    }
+
+    /// What a ray sees as the scalar goes evenly from one finite value to another, piece by piece in that order; a factor of the
+    /// gradient is that of `gradient` all along. Of what does not [integrate](Self::integrates), nothing.
+    pub fn along(&self, [from, to]: [f32; 2], gradient: [f32; 3], mut see: impl FnMut(Piece)) {
+        let How::Transfer(transfer) = &self.how else { return };
+        transfer.along([f64::from(from), f64::from(to)], gradient, |piece| {
+            let stated = Some(piece.color).filter(|color| self.colored && color.is_finite());
+            see(Piece { color: stated.unwrap_or(self.color.as_dvec3()), ..piece });
+        });
     }
 
     /// Whether the opacity depends on the gradient at all.

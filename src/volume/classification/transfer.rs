@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::curve::{Curve, Risen};
-use super::numbers::{opacity_in_range, square};
+use super::integral::Piece;
+use super::numbers::{fraction, opacity_in_range, square};
 use crate::components::{Color, TransferPoint};
 
 /// What every other program calls a transfer function.
@@ -44,6 +45,27 @@ impl Transfer {
                 alpha * factor.value(square(gradient).sqrt()).unwrap_or(0.0)
             }
             _ => alpha,
+        }
+    }
+
+    /// What a ray sees, in that order, as the scalar goes evenly from a finite value to another, each piece handed to `see`;
+    /// opacities are times the factor at the gradient's magnitude.
+    pub fn along(&self, [from, to]: [f64; 2], gradient: [f32; 3], mut see: impl FnMut(Piece)) {
+        let factor = self
+            .factor
+            .as_ref()
+            .map_or(1.0, |factor| fraction(factor.value(square(gradient).sqrt()).unwrap_or(0.0)));
+        if from == to {
+            let alpha = self.opacity.value(from).unwrap_or(0.0) * factor;
+            let color = self.color.value(from).unwrap_or_default();
+            Piece::new(1.0, [alpha; 2], [color; 2]).into_iter().for_each(see);
+            return;
+        }
+        // Opacities and colours have their points in the same places.
+        for (alphas, colors) in self.opacity.pieces([from, to]).zip(self.color.pieces([from, to])) {
+            let part = (alphas[1].0 - alphas[0].0) / (to - from);
+            let piece = Piece::new(part, alphas.map(|a| a.1 * factor), colors.map(|c| c.1));
+            piece.into_iter().for_each(&mut see);
         }
     }
 
