@@ -11,6 +11,7 @@ pub mod filter;
 pub mod gel;
 pub mod gradients;
 pub mod grid;
+mod hull;
 pub mod labels;
 pub mod layer;
 pub mod opacities;

@@ -9,6 +9,7 @@ use super::clipping::{Cut, Left};
 use super::filter::{overshoot, steepness};
 use super::gradients::{Gradients, Steepest};
 use super::grid::{Grid, Scalar, Scalars};
+use super::hull::{Axes, Hull};
 use super::pyramid::Pyramid;
 use super::ranges::Ranges;
 use crate::components::Filter;
@@ -144,16 +145,38 @@ impl Seen<'_> {
         let first = brick.map(|b| b * EDGE);
         let slopes = self.classifier.is_of_gradient();
         let linear = self.filter == Filter::Linear;
+        let hull = (!linear)
+            .then(|| Hull::of(values, (self.grid.size, first), (self.filter, slopes)))
+            .flatten();
+        if let Some(hull) = hull {
+            return self.cells_of(&hull, first);
+        }
         let around = Around::of(values, (self.grid.size, first), linear, slopes);
         let bounds = self.bounds(gradients, first);
+        self.words(first, |y, z| {
+            let (value, slopes) = around.row(y, z);
+            self.shows(&bounds, &value, &slopes)
+        })
+    }
+
+    /// The cells that may be seen of a brick of a cubic, by its hull.
+    fn cells_of(&self, hull: &Hull, first: [usize; 3]) -> [u64; EDGE] {
+        let to_world = self.grid.index_to_world.matrix3.inverse().transpose();
+        let axes = Axes::new([to_world.x_axis, to_world.y_axis, to_world.z_axis]);
+        self.words(first, |y, z| {
+            let [low, high] = hull.values(y, z, ROUNDING);
+            self.classifier.show(&low, &high, &hull.gradients(y, z, ROUNDING, &axes))
+        })
+    }
+
+    /// The bits of a brick, of rows of which each tells 1 for what may be seen, else 0.
+    fn words(&self, first: [usize; 3], row: impl Fn(usize, usize) -> [u64; EDGE]) -> [u64; EDGE] {
         let [ex, ey, ez]: [usize; 3] =
             std::array::from_fn(|axis| EDGE.min(self.grid.size[axis] - first[axis]));
         let mut words = [0; EDGE];
         for (z, word) in words.iter_mut().enumerate().take(ez) {
             for y in 0..ey {
-                let (value, slopes) = around.row(y, z);
-                let shown = self.shows(&bounds, &value, &slopes);
-                let row = shown.iter().rev().fold(0, |bits, shown| bits << 1 | shown);
+                let row = row(y, z).iter().rev().fold(0, |bits, shown| bits << 1 | shown);
                 *word |= (row & ((1 << ex) - 1)) << (EDGE * y);
             }
         }
@@ -161,7 +184,7 @@ impl Seen<'_> {
     }
 }
 
-/// What the filter may make of the voxels of a brick.
+/// What the filter may make of the voxels of a brick, by their range.
 struct Bounds {
     /// How far values may leave the range of theirs, of its width.
     wider: f32,
