@@ -92,8 +92,8 @@
 //! polygon or a surface of values. Rays go in packets: tiles of four by four neighbours on the grid in use. `march` takes a
 //! packet through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
 //! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
-//! whole packet sees nothing, and `kernel` finds which of its rays meet gel at a sample, and samples it for them, with the
-//! widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
+//! whole packet sees nothing (and before it a `Group` of packets), `window` finds which of its rays meet gel at the next four
+//! samples, all sixty-four places at once, and `kernel` samples it for them, with the widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
 //! shades and shadows it there. `several` joins gels that overlap, `texture` filters what is mapped onto a
 //! polygon over the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample`
 //! ([`view::resampling`]) integrates the sample array to the picture, and [`formats::pictures`] writes it.
@@ -131,9 +131,10 @@
 //!   ([`composite::overlap`](view::composite::overlap)), independent of their order. What comes through several of them to a
 //!   voxel is the product of what comes through each, so each is swept by a light alone.
 //! - **Rays go in packets of sixteen**, neighbours side by side from sample to sample; each gathers what it would alone.
-//! - **The pyramid's upper levels are distances**: how many blocks of 4³ cells away the nearest interesting one is, and near
-//!   it a bit a cell that answers for sixteen rays at once. A level leaps to the end of an aligned cell, a distance across
-//!   all the room there is.
+//! - **The pyramid's upper levels are distances**: how many blocks of 4³ cells away the nearest interesting one is. A level
+//!   leaps to the end of an aligned cell, a distance across all the room there is. Near what is interesting, sixteen rays are
+//!   looked up at four samples at once in the bits of the cells; a bit a cell for what is near it, for all rays of a packet,
+//!   was no faster.
 //! - **Opacity is per unit of thickness.** A voxel's opacity is that of a slab one opacity unit thick; a sample stands for
 //!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture.
 //! - **Values may be interpolated in place of colors** (`reconstruct = "values"`, the better reconstruction of §8): scalars are

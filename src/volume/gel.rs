@@ -163,6 +163,13 @@ impl<'a, T: Texel> TexelSlices<'a, T> {
         self.table.get(entry as usize).copied().unwrap_or(EMPTY)
     }
 
+    /// For each brick of the grid, x fastest: its number among the stored ones, or `EMPTY`.
+    #[must_use]
+    #[inline]
+    pub(crate) fn table(self) -> &'a [u32] {
+        self.table
+    }
+
     /// The texels of a stored brick, x fastest; zeros for `EMPTY`.
     #[must_use]
     #[inline]

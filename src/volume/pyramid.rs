@@ -3,7 +3,7 @@
 //! Level 0 has a bit a cell of 2 × 2 × 2 neighbouring voxels, kept for stored bricks. Of the levels above, what a packet of
 //! rays asks is kept: for each block of 4³ cells (level 2), how many blocks away the nearest interesting one is (`blocks`). So
 //! a leap is as long as the room around it and not as the aligned cell that it begins in, and it serves packets of any width.
-//! Near what is interesting, a bit a cell tells whether a packet around it can meet any (`near`).
+//! For values, which may be looked for around samples, a bit a cell tells whether a packet around it can meet any (`near`).
 
 mod blocks;
 mod near;
@@ -31,7 +31,8 @@ struct Levels {
     cells: Vec<[u64; CELLS]>,
     blocks: [usize; 3],
     distances: Vec<u8>,
-    near: Near,
+    /// Of values alone.
+    near: Option<Near>,
 }
 
 impl PartialEq for Pyramid {
@@ -49,16 +50,16 @@ impl Pyramid {
             .map(|brick| gel.interesting_cells(brick))
             .collect();
         let full = FullBlocks::of(gel.counts(), gel.table(), &cells);
-        let near = Near::of(gel.counts(), gel.table(), &cells);
-        let (blocks, table) = (full.counts, Vec::new());
+        let (blocks, table, near) = (full.counts, Vec::new(), None);
         Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
     }
 
-    /// The pyramid of interesting `cells`, of the bricks that `table` numbers on a grid of `counts` bricks.
+    /// The pyramid of interesting `cells`, of the bricks that `table` numbers on a grid of `counts` bricks; of values, which may
+    /// be looked for around samples.
     #[must_use]
     pub(crate) fn of_cells(counts: [usize; 3], table: Vec<u32>, cells: Vec<[u64; CELLS]>) -> Self {
         let full = FullBlocks::of(counts, &table, &cells);
-        let near = Near::of(counts, &table, &cells);
+        let near = Some(Near::of(counts, &table, &cells));
         let blocks = full.counts;
         Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
     }
@@ -67,7 +68,7 @@ impl Pyramid {
     #[must_use]
     pub fn slices(&self) -> PyramidSlices<'_> {
         let Levels { table, cells, blocks, distances, near } = &*self.0;
-        PyramidSlices { table, cells, blocks: *blocks, distances, near }
+        PyramidSlices { table, cells, blocks: *blocks, distances, near: near.as_ref() }
     }
 
     /// Bytes that it takes.
@@ -75,7 +76,7 @@ impl Pyramid {
     pub fn bytes(&self) -> u64 {
         let cells = self.0.cells.len() * size_of::<[u64; CELLS]>();
         (cells + self.0.distances.len() + self.0.table.len() * size_of::<u32>()) as u64
-            + self.0.near.bytes()
+            + self.0.near.as_ref().map_or(0, Near::bytes)
     }
 }
 
@@ -86,7 +87,7 @@ pub struct PyramidSlices<'a> {
     cells: &'a [[u64; CELLS]],
     blocks: [usize; 3],
     distances: &'a [u8],
-    near: &'a Near,
+    near: Option<&'a Near>,
 }
 
 impl<'a> PyramidSlices<'a> {
@@ -101,7 +102,7 @@ impl<'a> PyramidSlices<'a> {
     #[must_use]
     #[inline]
     pub(crate) fn is_near(self, reaching: usize, cell: [i64; 3]) -> Option<bool> {
-        self.near.holds(reaching, cell)
+        self.near?.holds(reaching, cell)
     }
 
     /// Whether a cell may be seen, of a pyramid that was made of cells.
@@ -109,7 +110,7 @@ impl<'a> PyramidSlices<'a> {
     #[inline]
     pub fn shows(self, cell: [usize; 3]) -> bool {
         let [x, y, z] = cell.map(|n| n / CELLS);
-        let [nx, ny, _] = self.blocks.map(|n| n * BLOCK / CELLS);
+        let [nx, ny, _] = self.bricks();
         let words = self.table.get((z * ny + y) * nx + x).and_then(|&brick| self.words(brick));
         let [x, y, z] = cell.map(|n| n % CELLS);
         words.is_some_and(|words| words[z] >> (CELLS * y + x) & 1 == 1)
@@ -120,6 +121,27 @@ impl<'a> PyramidSlices<'a> {
     #[inline]
     pub fn words(self, brick: u32) -> Option<&'a [u64; CELLS]> {
         self.cells.get(brick as usize)
+    }
+
+    /// The interesting cells of all stored bricks.
+    #[must_use]
+    #[inline]
+    pub(crate) fn all_words(self) -> &'a [[u64; CELLS]] {
+        self.cells
+    }
+
+    /// The bricks' numbers, of a pyramid that was made of cells.
+    #[must_use]
+    #[inline]
+    pub(crate) fn table(self) -> &'a [u32] {
+        self.table
+    }
+
+    /// Bricks on each axis.
+    #[must_use]
+    #[inline]
+    pub(crate) fn bricks(self) -> [usize; 3] {
+        self.blocks.map(|n| n * BLOCK / CELLS)
     }
 
     /// How many blocks lie between the one around a cell and the nearest with an interesting cell, along the axis on which

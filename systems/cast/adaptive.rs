@@ -8,8 +8,8 @@
 
 use rayon::prelude::*;
 
-use super::band::{Band, cut};
-use super::lanes::{LANES, Packet, SIDE, each};
+use super::band::{self, Band, cut};
+use super::lanes::{LANES, Lanes, Packet, SIDE};
 use super::level::Regions;
 use super::preview::Preview;
 use super::targets::{Caster, Crossed, Outlines, RayColors};
@@ -63,7 +63,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
             self.array.splits.fill(if layout.coarsest == 1 { 0b1_1111 } else { 1 });
             self.open(|_, _| true);
         }
-        self.cast_where(layout.coarsest, |_, _| true, watch, preview.as_deref())?;
+        self.cast_where(layout.coarsest, |_, _| Lanes::MAX, watch, preview.as_deref())?;
         let mut parent: Option<Regions> = None;
         let mut side = layout.coarsest;
         while side > finest && (side > POSITIONS || self.edges.is_some()) {
@@ -80,7 +80,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
                         || (y > 0 && level.split(x, y - 1))
                 });
             }
-            self.cast_where(side / 2, |a, b| level.asks(a, b), watch, preview.as_deref())?;
+            self.cast_where(side / 2, |a, b| level.asked(a, b), watch, preview.as_deref())?;
             parent = Some(level);
             side /= 2;
         }
@@ -152,7 +152,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
     fn cast_where(
         &mut self,
         step: usize,
-        wanted: impl Fn(usize, usize) -> bool + Sync,
+        wanted: impl Fn(usize, usize) -> Lanes + Sync,
         watch: &Watch,
         preview: Option<&Preview<'_>>,
     ) -> Result<(), Error> {
@@ -212,24 +212,51 @@ fn cast_bands(
     Ok(counts)
 }
 
+/// Packets next to one another in a band: what is empty for all of them is found once.
+#[derive(Clone, Copy)]
+struct Group {
+    /// Positions along its side.
+    side: usize,
+    /// Positions between the rays of a packet that is as large.
+    apart: usize,
+}
+
+impl Group {
+    /// That of packets of rays `step` positions apart; `None` where a band is not as high, or as far from square.
+    fn of(step: usize) -> Option<Self> {
+        let side = band::LEAST;
+        let reach = side - step;
+        (step == POSITIONS || step == 2 * POSITIONS)
+            .then(|| Self { side, apart: reach.div_ceil(SIDE - 1) })
+    }
+}
+
 /// Casts the wanted rays of a band, packet by packet.
 fn cast_band<C: Caster>(
     band: &mut Band<'_>,
     layout: &Layout,
     step: usize,
-    wanted: &impl Fn(usize, usize) -> bool,
+    wanted: &impl Fn(usize, usize) -> Lanes,
     caster: &C,
 ) {
     let mut scratch = C::Scratch::default();
     let mut rays = [RayColors::default(); LANES];
-    let margin = layout.margin as i64;
+    let place = |i: usize, j: usize| [i, j].map(|n| n as i64 - layout.margin as i64);
+    let group = Group::of(step);
+    let mut scouted = usize::MAX;
     band.packets(layout, step, wanted, |band, [i, j], wanted| {
-        let first = [i as i64 - margin, j as i64 - margin];
+        if let Some(Group { side, apart }) = group
+            && i / side != scouted
+        {
+            scouted = i / side;
+            let first = place(scouted * side, band.top());
+            let scout = Packet { first, step: apart, wanted: Lanes::MAX };
+            caster.scout(&scout, &mut scratch, &mut band.counts);
+        }
+        let first = place(i, j);
         let packet = Packet { first, step, wanted };
         caster.cast(&packet, &mut rays, &mut scratch, &mut band.counts);
-        for lane in each(wanted) {
-            band.write(layout, i + lane % SIDE * step, j + lane / SIDE * step, &rays[lane]);
-        }
+        band.write(layout, ([i, j], step), wanted, &rays);
     });
 }
 

@@ -1,11 +1,11 @@
 //! Bands: rows of the sample array, as high as a row of packets, so that bands are written side by side.
 
-use super::lanes::{LANES, Lanes, SIDE};
+use super::lanes::{LANES, Lanes, SIDE, each};
 use super::targets::RayColors;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
 /// The least rows of positions in a band.
-const LEAST: usize = 64;
+pub(crate) const LEAST: usize = 64;
 
 /// The part of a sample array that one row of packets of the coarser levels, or some of the finer, lies in.
 pub(crate) struct Band<'b> {
@@ -69,31 +69,39 @@ impl Part<'_> {
 }
 
 impl Band<'_> {
-    /// Calls `cast` with every packet of rays `step` positions apart of which some are `wanted` (a position of their lattice);
-    /// those between the blocks' first positions in opened blocks alone.
+    /// Calls `cast` with every packet of rays `step` positions apart of which some are `wanted`, by where its first is on their
+    /// lattice; those between the blocks' first positions in opened blocks alone.
     pub fn packets(
         &mut self,
         layout: &Layout,
         step: usize,
-        wanted: impl Fn(usize, usize) -> bool,
+        wanted: impl Fn(usize, usize) -> Lanes,
         mut cast: impl FnMut(&mut Self, [usize; 2], Lanes),
     ) {
         let (across, shift) = (layout.positions()[0], step.trailing_zeros());
         // Down before across: what is below one another lies in the same bricks.
         for i in (0..across).step_by(SIDE * step) {
             for j in (self.top..self.bottom).step_by(SIDE * step) {
-                let mut lanes = 0;
-                for lane in 0..LANES {
-                    let (x, y) = (i + lane % SIDE * step, j + lane / SIDE * step);
-                    let held = x < across && y < self.bottom && wanted(x >> shift, y >> shift);
-                    let held = held && (step >= POSITIONS || self.is_open(layout, x, y));
-                    lanes |= Lanes::from(held) << lane;
+                let mut lanes = wanted(i >> shift, j >> shift);
+                let last = (SIDE - 1) * step;
+                let whole = i + last < across && j + last < self.bottom && step >= POSITIONS;
+                if lanes != 0 && !whole {
+                    lanes = each(lanes)
+                        .map(|lane| (lane, i + lane % SIDE * step, j + lane / SIDE * step))
+                        .filter(|&(_, x, y)| x < across && y < self.bottom)
+                        .filter(|&(_, x, y)| step >= POSITIONS || self.is_open(layout, x, y))
+                        .fold(0, |lanes, (lane, ..)| lanes | 1 << lane);
                 }
                 if lanes != 0 {
                     cast(self, [i, j], lanes);
                 }
             }
         }
+    }
+
+    /// Its first row of positions.
+    pub fn top(&self) -> usize {
+        self.top
     }
 
     /// One past its last row of positions.
@@ -105,17 +113,32 @@ impl Band<'_> {
         self.opened[layout.place(i, j - self.top).1] != NONE
     }
 
-    /// Keeps what a ray at a position of the band saw.
-    pub fn write(&mut self, layout: &Layout, i: usize, j: usize, ray: &RayColors) {
-        let (within, block) = layout.place(i, j - self.top);
-        for (part, color) in self.colors.iter_mut().zip([ray.full, ray.attenuated, ray.geometric]) {
-            if within == 0 {
-                part.lattice[block] = color;
-            } else {
-                part.fine[(self.opened[block] - self.first) as usize][within] = color;
+    /// Keeps what the `wanted` rays of a packet saw whose first is at position `(i, j)`, with `step` positions between them.
+    #[inline]
+    pub fn write(
+        &mut self,
+        layout: &Layout,
+        ([i, j], step): ([usize; 2], usize),
+        wanted: Lanes,
+        rays: &[RayColors; LANES],
+    ) {
+        let across = layout.blocks()[0];
+        for lane in each(wanted) {
+            let (x, y) = (i + lane % SIDE * step, j - self.top + lane / SIDE * step);
+            let block = y / POSITIONS * across + x / POSITIONS;
+            let within = y % POSITIONS * POSITIONS + x % POSITIONS;
+            let ray = &rays[lane];
+            for (part, color) in
+                self.colors.iter_mut().zip([&ray.full, &ray.attenuated, &ray.geometric])
+            {
+                if within == 0 {
+                    part.lattice[block] = *color;
+                } else {
+                    part.fine[(self.opened[block] - self.first) as usize][within] = *color;
+                }
             }
+            self.cast[block] |= 1 << within;
         }
-        self.cast[block] |= 1 << within;
-        self.counts.rays += 1;
+        self.counts.rays += u64::from(wanted.count_ones());
     }
 }

@@ -1,5 +1,7 @@
 //! Casting the rays that refinement asks for, in packets of neighbours.
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
 use super::lanes::{LANES, Packet, each};
@@ -23,11 +25,15 @@ pub(crate) struct BeamCaster<'a, M> {
     pub media: &'a M,
     /// Whether C_G is asked for.
     pub three_colors: bool,
+    /// The instructions that rays are cast with; no bit depends on them.
+    pub level: Level,
 }
 
 /// What a thread needs for a packet, kept from one to the next.
 pub(crate) struct Scratch<E> {
     entered: E,
+    /// The samples `[first, end)` outside which all rays of the packets to come meet no gel.
+    ahead: [i64; 2],
     /// Where the packet is in the volumes that are projected.
     tiles: Vec<Tile>,
     /// What the rays meet, one after the other.
@@ -36,7 +42,8 @@ pub(crate) struct Scratch<E> {
 
 impl<E: Default> Default for Scratch<E> {
     fn default() -> Self {
-        Self { entered: E::default(), tiles: Vec::new(), hits: Vec::new() }
+        let ahead = [i64::MIN, i64::MAX];
+        Self { entered: E::default(), ahead, tiles: Vec::new(), hits: Vec::new() }
     }
 }
 
@@ -50,6 +57,10 @@ impl<M: Media> BeamCaster<'_, M> {
 impl<M: Media> Caster for BeamCaster<'_, M> {
     type Scratch = Scratch<M::Entered>;
 
+    fn scout(&self, group: &Packet, scratch: &mut Self::Scratch, counts: &mut Counts) {
+        scratch.ahead = self.media.scout(group, &mut scratch.entered, counts);
+    }
+
     fn cast(
         &self,
         packet: &Packet,
@@ -57,12 +68,30 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
         scratch: &mut Self::Scratch,
         counts: &mut Counts,
     ) {
-        let Scratch { entered, tiles, hits } = scratch;
-        let mut range = self.media.enter(packet, entered);
-        if range[0] < range[1] {
-            range[0] = self.media.seek(entered, range[0], counts);
-        }
+        dispatch!(self.level, simd => self.cast_with(simd, packet, colors, scratch, counts));
+    }
+}
+
+impl<M: Media> BeamCaster<'_, M> {
+    #[inline(always)]
+    fn cast_with<S: Simd>(
+        &self,
+        simd: S,
+        packet: &Packet,
+        colors: &mut [RayColors; LANES],
+        scratch: &mut Scratch<M::Entered>,
+        counts: &mut Counts,
+    ) {
+        let Scratch { entered, ahead, tiles, hits } = scratch;
         let no_hits = self.polygons.is_empty() && self.projections.is_empty();
+        let mut range = *ahead;
+        if range[0] < range[1] {
+            let own = self.media.enter(packet, entered);
+            range = [range[0].max(own[0]), range[1].min(own[1])];
+        }
+        if range[0] < range[1] {
+            range[0] = self.media.seek(simd, entered, (range[0], packet.wanted), counts);
+        }
         if range[0] >= range[1] && no_hits {
             colors.fill(RayColors::default());
             return;
@@ -83,7 +112,7 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
         }
         let own = gathered.map(|ray| ray.hits());
         march(
-            (self.media, entered, range),
+            (simd, self.media, entered, range),
             &self.slabs,
             hits,
             |hit, lane| {

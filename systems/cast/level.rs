@@ -1,6 +1,25 @@
 //! Which regions of one level of the refinement are split (paper §6).
 
+use super::lanes::{Lanes, SIDE};
 use crate::view::samples::POSITIONS;
+
+/// The new corners of the children of three by three regions, the middle one of which begins a packet of the lattice twice as
+/// fine: those that are in the packet.
+const CORNERS: [[Lanes; 3]; 3] = {
+    let mut all = [[0; 3]; 3];
+    let mut n = 0;
+    while n < 45 {
+        let (region, corner) = (n / 5, n % 5);
+        // The middle of each side, and of the region.
+        let [x, y] = [[1, 0], [0, 1], [1, 1], [2, 1], [1, 2]][corner];
+        let (x, y) = (x + 2 * (region % 3), y + 2 * (region / 3));
+        if x >= 2 && x < 2 + SIDE && y >= 2 && y < 2 + SIDE {
+            all[region / 3][region % 3] |= 1 << ((y - 2) * SIDE + x - 2);
+        }
+        n += 1;
+    }
+    all
+};
 
 /// The regions of `side` positions, x fastest.
 pub struct Regions {
@@ -28,18 +47,24 @@ impl Regions {
 
     /// Whether a region is split; not outside the level.
     pub fn split(&self, x: usize, y: usize) -> bool {
-        x < self.across && self.split.get(y * self.across + x).is_some_and(|split| *split)
+        let place = y.wrapping_mul(self.across).wrapping_add(x);
+        x < self.across && y < self.split.len() && self.split.get(place).is_some_and(|split| *split)
     }
 
-    /// Whether the position `(a, b)` of the lattice twice as fine is new and a corner of a split region's child.
-    pub fn asks(&self, a: usize, b: usize) -> bool {
-        let (x, y) = (a / 2, b / 2);
-        match (a % 2, b % 2) {
-            (1, 1) => self.split(x, y),
-            (1, 0) => self.split(x, y) || (y > 0 && self.split(x, y - 1)),
-            (0, 1) => self.split(x, y) || (x > 0 && self.split(x - 1, y)),
-            _ => false,
+    /// Which positions of the lattice twice as fine are new and corners of a split region's children: of a packet of them
+    /// whose first is `(a, b)`, both even.
+    pub fn asked(&self, a: usize, b: usize) -> Lanes {
+        let mut lanes = 0;
+        for (down, row) in CORNERS.iter().enumerate() {
+            for (across, corners) in row.iter().enumerate() {
+                // Beyond the level's first regions there are none, and none so far behind its last.
+                let (x, y) = ((a / 2 + across).wrapping_sub(1), (b / 2 + down).wrapping_sub(1));
+                if self.split(x, y) {
+                    lanes |= corners;
+                }
+            }
         }
+        lanes
     }
 
     /// Notes for the resampling which blocks of 4 × 4 positions are split, and which of their children.
@@ -52,6 +77,39 @@ impl Regions {
             let (x, y) = (at % self.across, at / self.across);
             let bit = if per_block == 1 { 0 } else { 1 + 2 * (y % 2) + x % 2 };
             splits[(y / per_block) * blocks_across + x / per_block] |= 1 << bit;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_corners_that_a_packet_is_asked_for_are_those_of_split_regions() {
+        let (across, down) = (5, 6);
+        for seed in 0..200_u64 {
+            let mut level = Regions::new([across, down], 8);
+            let random =
+                |at: usize| (seed * 31 + at as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 61;
+            level.split.iter_mut().enumerate().for_each(|(at, split)| *split = random(at) < 3);
+            let mut expected = vec![false; (2 * across + 8) * (2 * down + 8)];
+            for at in (0..across * down).filter(|at| level.split[*at]) {
+                let (x, y) = (at % across * 2, at / across * 2);
+                for [right, below] in [[1, 0], [0, 1], [1, 1], [2, 1], [1, 2]] {
+                    expected[(y + below) * (2 * across + 8) + x + right] = true;
+                }
+            }
+            for b in (0..=2 * down).step_by(SIDE) {
+                for a in (0..=2 * across).step_by(SIDE) {
+                    let lanes = level.asked(a, b);
+                    for lane in 0..SIDE * SIDE {
+                        let (x, y) = (a + lane % SIDE, b + lane / SIDE);
+                        let asked = lanes >> lane & 1 == 1;
+                        assert_eq!(asked, expected[y * (2 * across + 8) + x], "{x} {y} of {seed}");
+                    }
+                }
+            }
         }
     }
 }

@@ -3,7 +3,9 @@
 //!
 //! The rays go side by side from sample to sample: all have theirs at the same depths. Where none meets gel or a polygon
 //! they go on together, and each stops on its own. What a ray gathers is what it would gather alone, in the same order.
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::crossing::Sheet;
@@ -138,8 +140,9 @@ impl Gathering {
 
 /// Takes the rays of a packet, which has entered `media`, through it and the polygons at `hits`; each ray's own are in the
 /// order of their depths. `shade` shades a hit of a ray, and is called for those alone that the ray reaches.
-pub fn march<M: Media>(
-    (media, entered, [first, end]): (&M, &mut M::Entered, [i64; 2]),
+#[inline(always)]
+pub fn march<S: Simd, M: Media>(
+    (simd, media, entered, [first, end]): (S, &M, &mut M::Entered, [i64; 2]),
     slabs: &Slabs,
     hits: &[Hit],
     shade: impl Fn(&Hit, usize) -> Shaded,
@@ -151,14 +154,14 @@ pub fn march<M: Media>(
     let (mut open, mut k, mut gel) = (lanes, first, i64::MIN);
     while open != 0 {
         if gel < k {
-            let found = media.seek(entered, k, counts);
+            let found = media.seek(simd, entered, (k, open), counts);
             gel = if found < end { found } else { i64::MAX };
         }
         k = gel.min(next.least);
         if k == i64::MAX {
             break;
         }
-        let met = if k == gel { media.meet(entered, k, open, counts) } else { 0 };
+        let met = if k == gel { media.meet(simd, entered, (k, open), counts) } else { 0 };
         let cut = if k == eye { open } else { next.at(k, open) };
         for lane in each(met & !cut) {
             let (color, opacity) = media.slab(entered, k, lane);

@@ -1,5 +1,6 @@
 //! What the rays of a view meet of volumes: none, one, or several whose gels overlap.
 
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::crossing::Sheet;
@@ -7,6 +8,8 @@ use super::lanes::{Lanes, Packet};
 use crate::view::samples::Counts;
 
 /// Gel as a packet of rays meets it, sample by sample. All rays of a view have their samples at the same depths.
+///
+/// Compiled anew for each set of instructions, on which no bit depends.
 pub(crate) trait Media: Sync {
     /// Where the rays of a packet are in it; taken from packet to packet, so that nothing is allocated for one.
     type Entered: Default + Send;
@@ -14,12 +17,26 @@ pub(crate) trait Media: Sync {
     /// Lets a packet enter; the sample numbers `[first, end)` outside which none of its rays meets gel.
     fn enter(&self, packet: &Packet, entered: &mut Self::Entered) -> [i64; 2];
 
-    /// The first sample from number `k` on that some ray may meet gel at; all before it are empty for all of them.
-    fn seek(&self, entered: &mut Self::Entered, k: i64, counts: &mut Counts) -> i64;
+    /// The samples `[first, end)` outside which no ray meets gel that lies within the outline of a packet `group`.
+    fn scout(&self, group: &Packet, entered: &mut Self::Entered, counts: &mut Counts) -> [i64; 2];
+
+    /// The first sample from number `k` on that some of `lanes` may meet gel at; all before it are empty for all of them.
+    fn seek<S: Simd>(
+        &self,
+        simd: S,
+        entered: &mut Self::Entered,
+        sample: (i64, Lanes),
+        counts: &mut Counts,
+    ) -> i64;
 
     /// Which of `lanes` meet gel at sample `k`, which no other sample is asked for until [`slab`](Media::slab) was.
-    fn meet(&self, entered: &mut Self::Entered, k: i64, lanes: Lanes, counts: &mut Counts)
-    -> Lanes;
+    fn meet<S: Simd>(
+        &self,
+        simd: S,
+        entered: &mut Self::Entered,
+        sample: (i64, Lanes),
+        counts: &mut Counts,
+    ) -> Lanes;
 
     /// The gel of the slab around sample `k` for a ray that meets it there: associated colour and opacity.
     fn slab(&self, entered: &mut Self::Entered, k: i64, lane: usize) -> (DVec3, f64);
@@ -47,11 +64,15 @@ impl Media for Nothing {
         [i64::MAX; 2]
     }
 
-    fn seek(&self, (): &mut (), _: i64, _: &mut Counts) -> i64 {
+    fn scout(&self, _: &Packet, (): &mut (), _: &mut Counts) -> [i64; 2] {
+        [i64::MAX; 2]
+    }
+
+    fn seek<S: Simd>(&self, _: S, (): &mut (), _: (i64, Lanes), _: &mut Counts) -> i64 {
         i64::MAX
     }
 
-    fn meet(&self, (): &mut (), _: i64, _: Lanes, _: &mut Counts) -> Lanes {
+    fn meet<S: Simd>(&self, _: S, (): &mut (), _: (i64, Lanes), _: &mut Counts) -> Lanes {
         0
     }
 

@@ -1,32 +1,38 @@
 //! One volume as rays meet it: which samples of a packet are interesting, and what is there (paper §6).
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Simd;
 use glam::{DVec3, Vec4};
 
+use super::bundle::Bundle;
 use super::crossing::{Crossings, Sheet};
 use super::cue::Cue;
 use super::kernel;
 use super::lanes::{LANES, Lanes, Packet};
 use super::media::Media;
 use super::shaft::Dust;
+use super::window::{Cells, SAMPLES, Sight, Window};
 use crate::view::camera::Camera;
 use crate::view::composite::{recolor, thicken};
 use crate::view::ray::Ray;
 use crate::view::samples::Counts;
-use crate::view::walk::{FRACTION_BITS, Tile, Walk};
+use crate::view::walk::{Tile, Walk};
 use crate::volume::gel::Texel;
 use crate::volume::pyramid::{BLOCK, PyramidSlices};
 
 /// What a volume is at samples: gel, or values that are classified there.
 pub trait Source: Sync {
-    /// Which of `lanes` (all inside the grid) meet anything at sample `k`, and what: associated RGBA per opacity unit; of its
-    /// reflected part `fade` is left, slabs are so many opacity units thick, and there is room for what rays cross. No bit
-    /// depends on the `level` of instructions.
-    fn meet(
+    /// The cells in which alone it is met; `None`: as far around them as it [reaches](Self::reach), or anywhere.
+    fn cells(&self) -> Option<Cells<'_>>;
+
+    /// Which of `lanes` (all inside the grid, and in such cells) meet anything at sample `k`, and what: associated RGBA per
+    /// opacity unit; of its reflected part `fade` is left, slabs are so many opacity units thick, and there is room for what
+    /// rays cross.
+    fn meet<I: Simd>(
         &self,
-        level: Level,
+        simd: I,
         fade: Option<f32>,
-        tile: &Tile,
+        tile_and_window: (&Tile, &Window),
         sample: (i64, Lanes),
         seen_ratios_and_room: (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes;
@@ -45,15 +51,21 @@ pub trait Source: Sync {
 
 impl<T: Texel> Source for kernel::GelSlices<'_, T> {
     #[inline]
-    fn meet(
+    fn cells(&self) -> Option<Cells<'_>> {
+        Some(Self::cells(self))
+    }
+
+    #[inline(always)]
+    fn meet<I: Simd>(
         &self,
-        level: Level,
+        simd: I,
         fade: Option<f32>,
-        tile: &Tile,
+        tile_and_window: (&Tile, &Window),
         sample: (i64, Lanes),
         (seen, ..): (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes {
-        dispatch!(level, simd => kernel::meet(simd, *self, fade, tile, sample, seen))
+        kernel::meet(simd, self, fade, tile_and_window, sample, seen);
+        sample.1
     }
 }
 
@@ -75,8 +87,6 @@ pub(crate) struct Medium<'a, S> {
     pub cue: Option<Cue>,
     /// Dust in shafts of light, all over the domain: then nothing steps over it.
     pub dust: Option<&'a Dust>,
-    /// The instructions that samples are taken with; no bit depends on them.
-    pub level: Level,
 }
 
 /// Where the rays of a packet are in a volume.
@@ -92,55 +102,10 @@ pub(crate) struct Entered {
     crossings: Crossings,
     packet: Option<Packet>,
     bundle: Bundle,
-    /// The sample that may meet gel, as far as was sought.
+    /// The samples that were looked at last.
+    window: Window,
+    /// Before it no ray meets gel, as far as was sought.
     next: i64,
-}
-
-/// A packet as a thick ray: all its rays lie within `radius` of its middle.
-#[derive(Debug, Clone, Copy, Default)]
-struct Bundle {
-    /// Fixed-point voxel index at the tile's middle sample.
-    at: [i64; 3],
-    step: [i64; 3],
-    /// Cells, along the axis that the rays are most spread on.
-    radius: f64,
-    /// Steps to a cell, along the axis that it goes fastest on.
-    per_cell: f64,
-    /// Which of the pyramid's bits answer for all of it, if some do.
-    reaching: Option<usize>,
-}
-
-impl Bundle {
-    fn of(tile: &Tile, pyramid: Option<PyramidSlices<'_>>, reach: f64) -> Self {
-        let last = LANES - 1;
-        // Places are affine over the tile: its middle is that of opposite corners, and the corners are farthest from it.
-        let middle = |triples: &[[i64; LANES]; 3]| {
-            std::array::from_fn(|axis| i64::midpoint(triples[axis][0], triples[axis][last]))
-        };
-        let (at, step): ([i64; 3], [i64; 3]) = (middle(&tile.at), middle(&tile.step));
-        let spread = |k: i64| {
-            let steps = k.wrapping_sub(tile.middle);
-            let from = |axis: usize, lane: usize| {
-                let middle = at[axis].wrapping_add(step[axis].wrapping_mul(steps));
-                tile.place(axis, lane, k).wrapping_sub(middle).unsigned_abs()
-            };
-            (0..3).flat_map(|axis| [from(axis, 0), from(axis, 3)]).max().unwrap_or(0)
-        };
-        let unit = (1_u64 << FRACTION_BITS) as f64;
-        let spread = spread(tile.some[0]).max(spread(tile.some[1]));
-        let fastest = step.iter().map(|step| step.unsigned_abs()).max().unwrap_or(0).max(1);
-        // Rounding moves each end by less than a unit, and by as much again with every step from the middle.
-        let steps = tile.some.map(|k| k.abs_diff(tile.middle)).into_iter().max().unwrap_or(0);
-        let radius = (spread.saturating_add(steps) + 8) as f64 / unit + reach;
-        let reaching = pyramid.and_then(|_| PyramidSlices::reaching(radius));
-        Self { at, step, radius, per_cell: unit / fastest as f64, reaching }
-    }
-
-    fn cell(&self, steps: i64) -> [i64; 3] {
-        std::array::from_fn(|axis| {
-            self.at[axis].wrapping_add(self.step[axis].wrapping_mul(steps)) >> FRACTION_BITS
-        })
-    }
 }
 
 impl<S: Source> Medium<'_, S> {
@@ -157,41 +122,10 @@ impl<S: Source> Medium<'_, S> {
         slab(dust.join(entered.seen[lane], world), ratio)
     }
 
-    fn ray(&self, entered: &Entered, lane: usize) -> Ray {
-        let position = entered.packet.map_or([0; 2], |packet| packet.position(lane));
-        self.camera.ray(Camera::window(position))
-    }
-}
-
-impl<S: Source> Media for Medium<'_, S> {
-    type Entered = Entered;
-
-    fn enter(&self, packet: &Packet, entered: &mut Entered) -> [i64; 2] {
-        self.walk.enter(packet.first, packet.step as i64, &mut entered.tile);
-        if entered.tile.is_empty() {
-            return entered.tile.some;
-        }
-        entered.packet = Some(*packet);
-        entered.next = i64::MIN;
-        let reach = self.source.reach(&entered.tile);
-        if reach > 0.0 {
-            entered.crossings.begin();
-        }
-        entered.bundle = Bundle::of(&entered.tile, self.pyramid, reach);
-        entered.ratios = [self.ratio; LANES];
-        if !self.walk.is_parallel() {
-            entered.ratios = std::array::from_fn(|lane| {
-                // A stretch of exactly 1 is that of the line of sight.
-                let ratio = self.ratio * self.ray(entered, lane).along.length();
-                if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio }
-            });
-        }
-        entered.tile.some
-    }
-
+    /// The first sample from `k` on that is not known to be empty for all rays of the packet.
     #[inline]
-    fn seek(&self, entered: &mut Entered, k: i64, counts: &mut Counts) -> i64 {
-        let (Some(pyramid), mut k) = (self.pyramid, k.max(entered.next)) else { return k };
+    fn leap(&self, entered: &Entered, mut k: i64, counts: &mut Counts) -> i64 {
+        let Some(pyramid) = self.pyramid else { return k };
         let Entered { bundle, tile, .. } = entered;
         while k < tile.some[1] {
             let cell = bundle.cell(k - tile.middle);
@@ -208,23 +142,129 @@ impl<S: Source> Media for Medium<'_, S> {
             counts.cells_skipped += 1;
             k = k.saturating_add((room.max(0.0) * bundle.per_cell) as i64 + 1);
         }
+        k
+    }
+
+    /// Looks at the samples from `k` on.
+    #[inline(always)]
+    fn look<I: Simd>(
+        &self,
+        simd: I,
+        (entered, cells): (&mut Entered, Cells<'_>),
+        k: i64,
+        counts: &mut Counts,
+    ) {
+        let Entered { tile, bundle, window, .. } = entered;
+        let last = (k + SAMPLES as i64).min(tile.some[1]) - 1;
+        let held =
+            (k..=last).rev().fold(0, |held, k| held << LANES | u64::from(self.held(tile, k)));
+        let sight = Sight { cells: bundle.reach([k, last].map(|k| k - tile.middle)), held };
+        window.look(simd, cells, tile, k, &sight);
+        let [empty, looks] = window.looked(held);
+        counts.cells_skipped += empty;
+        counts.packet_steps += looks;
+    }
+
+    /// Which rays are in the grid at a sample.
+    #[inline]
+    fn held(&self, tile: &Tile, k: i64) -> Lanes {
+        if tile.all[0] <= k && k < tile.all[1] {
+            return Lanes::MAX;
+        }
+        (0..LANES)
+            .filter(|&lane| self.walk.holds(tile, lane, k))
+            .fold(0, |set, lane| set | 1 << lane)
+    }
+
+    fn ray(&self, entered: &Entered, lane: usize) -> Ray {
+        let position = entered.packet.map_or([0; 2], |packet| packet.position(lane));
+        self.camera.ray(Camera::window(position))
+    }
+}
+
+impl<S: Source> Media for Medium<'_, S> {
+    type Entered = Entered;
+
+    #[inline(always)]
+    fn enter(&self, packet: &Packet, entered: &mut Entered) -> [i64; 2] {
+        self.walk.enter(packet.first, packet.step as i64, &mut entered.tile);
+        if entered.tile.is_empty() {
+            return entered.tile.some;
+        }
+        entered.packet = Some(*packet);
+        entered.next = i64::MIN;
+        entered.window.forget();
+        let reach = self.source.reach(&entered.tile);
+        if reach > 0.0 {
+            entered.crossings.begin();
+        }
+        entered.bundle = Bundle::of(&entered.tile, self.pyramid, reach);
+        entered.ratios = [self.ratio; LANES];
+        if !self.walk.is_parallel() {
+            entered.ratios = std::array::from_fn(|lane| {
+                // A stretch of exactly 1 is that of the line of sight.
+                let ratio = self.ratio * self.ray(entered, lane).along.length();
+                if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio }
+            });
+        }
+        entered.tile.some
+    }
+
+    fn scout(&self, group: &Packet, entered: &mut Entered, counts: &mut Counts) -> [i64; 2] {
+        // In perspective the rays between those of the group may be in the grid where none of its own is.
+        if !self.walk.is_parallel() {
+            return [i64::MIN, i64::MAX];
+        }
+        let [first, end] = self.enter(group, entered);
+        if first < end { [self.leap(entered, first, counts), end] } else { [i64::MAX; 2] }
+    }
+
+    #[inline(always)]
+    fn seek<I: Simd>(
+        &self,
+        simd: I,
+        entered: &mut Entered,
+        (k, lanes): (i64, Lanes),
+        counts: &mut Counts,
+    ) -> i64 {
+        let mut k = k.max(entered.next);
+        while k < entered.tile.some[1] {
+            if entered.window.holds(k) {
+                if let Some(met) = entered.window.next(k, lanes) {
+                    k = met;
+                    break;
+                }
+                k = entered.window.end();
+                continue;
+            }
+            k = self.leap(entered, k, counts);
+            let Some(cells) = self.source.cells() else { break };
+            if k < entered.tile.some[1] {
+                self.look(simd, (entered, cells), k, counts);
+            }
+        }
         entered.next = k;
         k
     }
 
-    #[inline]
-    fn meet(&self, entered: &mut Entered, k: i64, lanes: Lanes, counts: &mut Counts) -> Lanes {
-        let mut there = lanes;
-        if k < entered.tile.all[0] || k >= entered.tile.all[1] {
-            there = (0..LANES)
-                .filter(|&lane| self.walk.holds(&entered.tile, lane, k))
-                .fold(0, |set, lane| set | 1 << lane)
-                & lanes;
-        }
+    #[inline(always)]
+    fn meet<I: Simd>(
+        &self,
+        simd: I,
+        entered: &mut Entered,
+        (k, lanes): (i64, Lanes),
+        counts: &mut Counts,
+    ) -> Lanes {
         let fade = self.cue.map(|cue| cue.factor((k as f64 + 0.5) * self.distance) as f32);
-        let Entered { tile, seen, ratios, crossings, .. } = entered;
-        let met = self.source.meet(self.level, fade, tile, (k, there), (seen, ratios, crossings));
-        counts.packet_steps += 1;
+        let there = if entered.window.holds(k) {
+            entered.window.at(k) & lanes
+        } else {
+            counts.packet_steps += 1;
+            self.held(&entered.tile, k) & lanes
+        };
+        let Entered { tile, seen, ratios, crossings, window, .. } = entered;
+        let shared = (&*tile, &*window);
+        let met = self.source.meet(simd, fade, shared, (k, there), (seen, ratios, crossings));
         counts.samples += u64::from(met.count_ones());
         counts.cells_skipped += u64::from((there & !met).count_ones());
         met

@@ -1,15 +1,18 @@
 //! Casting rays: the hybrid ray tracer of the paper's §2 with the optimisations of its §6.
 //!
 //! `inputs` gathers what a view's rays may meet, `rays` makes of it what they need, and sends them on an errand: that of a
-//! picture, or `judge`'s, who casts `exact_pixel`s to tell how far a picture is off. `adaptive` says where rays are cast, `caster` takes them in packets of sixteen, `march` takes a packet through slabs and slivers. `media` is the gel as
-//! a packet meets it: nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing` and slabs that are `integrated`), or `several` that overlap; `beams` says
-//! where it can meet any. `projection` is volumes of which a ray shows one value, `sought` along it. `polygons` says which
-//! faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
+//! picture, or `judge`'s, who casts `exact_pixel`s to tell how far a picture is off. `adaptive` says where rays are cast,
+//! `caster` takes them in packets of sixteen, `march` takes a packet through slabs and slivers. `media` is the gel as a packet
+//! meets it: nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing` and slabs that
+//! are `integrated`), or `several` that overlap. A packet leaps as a `bundle` over what is empty, and looks through a `window`
+//! at what may not be; `beams` says where it can meet a polygon. `projection` is volumes of which a ray shows one value, `sought` along it. `polygons` says
+//! which faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
 
 mod adaptive;
 mod appearance;
 mod band;
 mod beams;
+mod bundle;
 mod caster;
 mod crossing;
 mod cue;
@@ -36,6 +39,7 @@ mod targets;
 mod texture;
 mod values;
 mod weight;
+mod window;
 
 use std::sync::Arc;
 

@@ -67,7 +67,7 @@ pub fn send<E: Errand>(
     let mut media = Vec::new();
     // Where dust is, nothing is stepped over; several volumes have one dust.
     let alone = dust.filter(|_| inputs.volumes.len() == 1);
-    let view = SharedView { camera, slabs, cue, skips: dust.is_none(), level: Level::new() };
+    let view = SharedView { camera, slabs, cue, skips: dust.is_none() };
     for placed in &inputs.volumes {
         media.extend(view.medium(placed, alone)?);
     }
@@ -121,7 +121,6 @@ struct SharedView<'a> {
     cue: Option<Cue>,
     /// Whether empty gel is stepped over.
     skips: bool,
-    level: Level,
 }
 
 impl<'a> SharedView<'a> {
@@ -195,7 +194,6 @@ impl<'a> SharedView<'a> {
             distance,
             cue: self.cue,
             dust,
-            level: self.level,
         }))
     }
 }
@@ -211,6 +209,7 @@ struct Rays<'a> {
 impl Rays<'_> {
     fn go<M: Media, E: Errand>(self, media: &M, errand: E) -> Result<E::Done, Error> {
         let Self { polygons, projections, slabs, three_colors } = self;
-        errand.run(BeamCaster { polygons, projections, slabs, media, three_colors })
+        let level = Level::new();
+        errand.run(BeamCaster { polygons, projections, slabs, media, three_colors, level })
     }
 }

@@ -1,5 +1,7 @@
 //! Several volumes, each on a grid of its own: where their gels overlap, optical depths add.
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+use fearless_simd::Simd;
 use glam::{DVec3, Vec4};
 
 use super::crossing::Sheet;
@@ -65,6 +67,7 @@ macro_rules! with_medium {
 impl Media for Several<'_> {
     type Entered = EnteredAll;
 
+    #[inline(always)]
     fn enter(&self, packet: &Packet, entered: &mut EnteredAll) -> [i64; 2] {
         entered.each.resize_with(self.media.len(), Within::default);
         let mut all = [i64::MAX, i64::MIN];
@@ -76,13 +79,30 @@ impl Media for Several<'_> {
         all
     }
 
-    fn seek(&self, entered: &mut EnteredAll, k: i64, counts: &mut Counts) -> i64 {
+    fn scout(&self, group: &Packet, entered: &mut EnteredAll, counts: &mut Counts) -> [i64; 2] {
+        entered.each.resize_with(self.media.len(), Within::default);
+        let mut all = [i64::MAX, i64::MIN];
+        for (medium, within) in self.media.iter().zip(&mut entered.each) {
+            let [first, end] =
+                with_medium!(medium, inner => inner.scout(group, &mut within.entered, counts));
+            all = [all[0].min(first), all[1].max(end)];
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn seek<S: Simd>(
+        &self,
+        simd: S,
+        entered: &mut EnteredAll,
+        (k, lanes): (i64, Lanes),
+        counts: &mut Counts,
+    ) -> i64 {
         let mut least = i64::MAX;
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
             if within.next < k {
                 let from = k.max(within.range[0]);
-                let found =
-                    with_medium!(medium, inner => inner.seek(&mut within.entered, from, counts));
+                let found = with_medium!(medium, inner => inner.seek(simd, &mut within.entered, (from, lanes), counts));
                 within.next = if found < within.range[1] { found } else { i64::MAX };
             }
             least = least.min(within.next);
@@ -90,12 +110,19 @@ impl Media for Several<'_> {
         least
     }
 
-    fn meet(&self, entered: &mut EnteredAll, k: i64, lanes: Lanes, counts: &mut Counts) -> Lanes {
+    #[inline(always)]
+    fn meet<S: Simd>(
+        &self,
+        simd: S,
+        entered: &mut EnteredAll,
+        (k, lanes): (i64, Lanes),
+        counts: &mut Counts,
+    ) -> Lanes {
         let mut met = 0;
         for (medium, within) in self.media.iter().zip(&mut entered.each) {
             within.met = 0;
             if within.next == k {
-                within.met = with_medium!(medium, inner => inner.meet(&mut within.entered, k, lanes, counts));
+                within.met = with_medium!(medium, inner => inner.meet(simd, &mut within.entered, (k, lanes), counts));
             }
             met |= within.met;
         }

@@ -20,6 +20,8 @@ pub(crate) struct RayColors {
 pub(crate) trait Caster: Sync {
     /// What a thread needs beside the caster, made once a band: nothing is allocated in a ray.
     type Scratch: Default;
+    /// Finds what is empty for all rays of packets that lie within the outline of `group`: the next that are cast.
+    fn scout(&self, group: &Packet, scratch: &mut Self::Scratch, counts: &mut Counts);
     /// Casts the wanted rays of a packet and puts what they saw into `rays`.
     fn cast(
         &self,

@@ -1,6 +1,6 @@
 //! Values as rays meet them: interpolated, and classified, cut, shaded and shadowed at the sample (§8: "better reconstruction").
 
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd};
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use hecs::Entity;
 
@@ -9,6 +9,7 @@ use super::inputs::StatedValues;
 use super::integrated::{self, Ends};
 use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
+use super::window::{Cells, Window};
 use crate::light::shading::{Lamp, Lamps, Reflectance};
 use crate::light::strength::LightStrength;
 use crate::view::composite::{recolor, thicken};
@@ -104,21 +105,16 @@ impl<'a> Values<'a> {
         section.map_or(whole, |section| part_of(whole, section, way))
     }
 
-    /// Which rays may meet something at a sample, or as far from it as is looked.
+    /// Which rays may meet something as far from a sample as is looked.
     fn near(&self, tile: &Tile, k: i64, lanes: Lanes) -> Lanes {
         let Some(pyramid) = self.pyramid else { return lanes };
-        let shows = |lane: &usize| {
-            pyramid.shows(
-                tile.at_sample(*lane, k).map(|place| (place >> FRACTION_BITS).max(0) as usize),
-            )
-        };
         let near = |reaching: usize, lane: usize| {
             let cell = tile.at_sample(lane, k).map(|place| place >> FRACTION_BITS);
             pyramid.is_near(reaching, cell) == Some(true)
         };
         let set = |set: Lanes, lane: usize| set | 1 << lane;
         if !self.looks_around() {
-            return each(lanes).filter(shows).fold(0, set);
+            return lanes;
         }
         match PyramidSlices::reaching(crossing::reach(tile)) {
             Some(reaching) => each(lanes).filter(|&lane| near(reaching, lane)).fold(0, set),
@@ -204,15 +200,21 @@ impl Source for Values<'_> {
         if self.looks_around() { crossing::reach(tile) } else { 0.0 }
     }
 
-    fn meet(
+    fn cells(&self) -> Option<Cells<'_>> {
+        let pyramid = self.pyramid.filter(|_| !self.looks_around())?;
+        let words = Some(pyramid.all_words());
+        Some(Cells { counts: pyramid.bricks(), table: pyramid.table(), words })
+    }
+
+    fn meet<I: Simd>(
         &self,
-        level: Level,
+        simd: I,
         fade: Option<f32>,
-        tile: &Tile,
+        (tile, _): (&Tile, &Window),
         (k, lanes): (i64, Lanes),
         (seen, ratios, crossings): (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes {
-        let fade = fade.unwrap_or(1.0);
+        let (level, fade) = (simd.level(), fade.unwrap_or(1.0));
         let met = self.near(tile, k, lanes);
         let mut sampled = [Sampled::default(); LANES];
         let mut spots = [Spot::default(); LANES];

@@ -5,6 +5,8 @@ use proptest::array::uniform3;
 use proptest::prelude::*;
 
 use super::super::lanes::each;
+use fearless_simd::{Level, dispatch};
+
 use super::*;
 use crate::components::View;
 use crate::view::camera::Camera;
@@ -107,19 +109,30 @@ fn taken(
     medium: &Medium<'_, kernel::GelSlices<'_, [f32; 4]>>,
     packet: &Packet,
     anew: i64,
+    level: Level,
+) -> [Taken; LANES] {
+    dispatch!(level, simd => taken_with(simd, medium, packet, anew))
+}
+
+#[inline(always)]
+fn taken_with<I: Simd>(
+    simd: I,
+    medium: &Medium<'_, kernel::GelSlices<'_, [f32; 4]>>,
+    packet: &Packet,
+    anew: i64,
 ) -> [Taken; LANES] {
     let (mut counts, mut entered) = (Counts::default(), Entered::default());
     let mut taken: [Taken; LANES] = Default::default();
     let [mut k, end] = medium.enter(packet, &mut entered);
     while k < end {
-        let sought = medium.seek(&mut entered, k, &mut counts);
+        let sought = medium.seek(simd, &mut entered, (k, packet.wanted), &mut counts);
         if k < anew && anew < sought {
             k = anew;
             continue;
         }
         k = sought;
         if k < end {
-            for lane in each(medium.meet(&mut entered, k, packet.wanted, &mut counts)) {
+            for lane in each(medium.meet(simd, &mut entered, (k, packet.wanted), &mut counts)) {
                 let (color, opacity) = medium.slab(&mut entered, k, lane);
                 if (color, opacity) != (DVec3::ZERO, 0.0) {
                     taken[lane].push((k, color.extend(opacity).to_array().map(f64::to_bits)));
@@ -165,22 +178,22 @@ proptest! {
         let pyramid = Pyramid::of(&gel);
         let camera = Camera::new(&case.view, &Extent::of(case.grid.corners()).unwrap());
         let walk = Walk::new(&case.grid, &camera, case.distance).unwrap().unwrap();
-        let medium = |pyramid, level| Medium {
+        let medium = |pyramid| Medium {
             walk, camera: &camera, source: kernel::GelSlices { texels: gel.slices(), ambient: None, pyramid }, pyramid, ratio: 1.0, distance: case.distance, cue: None,
-            dust: None, level,
+            dust: None,
         };
         let mut tile = Tile::default();
         walk.enter(packet.first, packet.step as i64, &mut tile);
         let anew = tile.some[0].saturating_add(i64::from(until));
-        let expected = taken(&medium(None, Level::baseline()), &packet, i64::MIN);
+        let expected = taken(&medium(None), &packet, i64::MIN, Level::baseline());
         for level in levels() {
-            prop_assert_eq!(&taken(&medium(Some(pyramid.slices()), level), &packet, anew), &expected);
+            prop_assert_eq!(&taken(&medium(Some(pyramid.slices())), &packet, anew, level), &expected);
         }
         // Alone, or in another tile, a ray takes what it takes among others.
         let lane = packet.wanted.trailing_zeros() as usize;
         let alone = Packet { first: packet.position(lane), step: 1, wanted: 1 };
-        let some = medium(Some(pyramid.slices()), Level::new());
-        prop_assert_eq!(&taken(&some, &alone, anew)[0], &expected[lane]);
+        let some = medium(Some(pyramid.slices()));
+        prop_assert_eq!(&taken(&some, &alone, anew, Level::new())[0], &expected[lane]);
     }
 
     #[test]
