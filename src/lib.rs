@@ -178,7 +178,8 @@
 //!
 //! - Position p of the sample array lies at p/4 of a pixel; a pixel is the integral of the bilinear interpolation between
 //!   positions. `roll` turns the picture counter-clockwise.
-//! - A window without a stated height just holds the silhouette of the scene's box, with 5 % free on each side.
+//! - A window without a stated height just holds the silhouette of the scene's box, with 5 % free on each side, and about 12 % where
+//!   a title, a legend or axes stand around it.
 //! - A contour is of what is *above* its isovalue, as other programs show it; `form = "around"` is the paper's region, seen
 //!   on both sides of the isovalue and so also at steep boundaries that pass it by.
 //! - N = −∇f/|∇f| is one-sided. Specular light is not gated by N·L. Ambient light counts once, without a light's colour.
@@ -202,7 +203,7 @@
 //! first volume that holds its middle; none is scan-converted into values. Voxels are shaded before they are
 //! interpolated, as in the paper, unless a volume states values, so that what is magnified much looks soft. Values are
 //! interpolated as 32-bit floats: integers of more than 24 bits lose their last digits. A material with highlights, or a light at
-//! the observer, is shaded anew for every view. Polygons are planar; meshes are polygons.
+//! the observer, is shaded anew for every view. Polygons are planar; meshes are polygons, whose `smooth` bends their normals and not their outlines.
 //!
 //! What numbers do at their extremes, each with the test that holds it:
 //!

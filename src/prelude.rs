@@ -5,7 +5,7 @@
 //! | entity | components |
 //! |---|---|
 //! | a volume | [`volume`] or [`painted_volume`] of an array; [`Classify`], [`Material`], [`Clip`], [`Projection`], [`OpacityUnit`], [`Reconstruct`] |
-//! | a polygon, a mesh | [`polygon`], [`triangles`], or a [`Polygon`] or [`Mesh`]; [`Surface`], [`Voxelize`], [`Textured`] |
+//! | a polygon, a mesh | [`polygon`], [`triangles`], or a [`Polygon`] or [`Mesh`]; [`Surface`], [`Smooth`], [`Voxelize`], [`Textured`] |
 //! | a light | [`Light`]; [`CastsShadow`], [`Projects`], [`Shaft`] |
 //! | a texture | a [`Name`] and a [`Picture`] |
 //! | the view | [`View`]; [`Sampling`], [`DepthCue`], [`Estimate`] |
@@ -21,8 +21,8 @@ pub use crate::components::{
     Axes, BoundingBox, Callout, CastsShadow, Classify, Clip, Color, Contour, Corner, DepthCue,
     Estimate, Filter, Form, Legend, LegendEntry, Light, Material, Matte, Mesh, Name, OpacityUnit,
     Order, OrientationCube, PixelFilter, Polygon, Projection, Projects, Reconstruct, Sampling,
-    ScaleBar, Shaft, Skip, Surface, TexelKind, TextureFilter, Textured, Tissue, Title, Toward,
-    TransferPoint, View, Voxelize, Wrap,
+    ScaleBar, Shaft, Skip, Smooth, Surface, TexelKind, TextureFilter, Textured, Tissue, Title,
+    Toward, TransferPoint, View, Voxelize, Wrap,
 };
 pub use crate::error::Error;
 pub use crate::formats::pictures::write_picture;

@@ -245,6 +245,7 @@ molecule = { file = "two.pdb", style = "balls" }
 voxelize = {}
 [[entity]]
 mesh = { file = "one.obj" }
+smooth = {}
 voxelize = {}
 [[entity]]
 light = { toward = [0, -1, 0], strength = 1 }

@@ -8,5 +8,6 @@ pub mod may_hold;
 pub(crate) mod outline;
 pub(crate) mod shape;
 mod simple;
+pub mod smooth;
 pub mod texture;
 mod welded;

@@ -8,9 +8,10 @@ use hecs::{Entity, World};
 use super::carriers::carriers;
 use super::fault::Fault;
 use super::fill::{fill, fill_from, withdraw};
-use crate::components::{Mesh, Polygon, Surface, Voxelize};
+use crate::components::{Mesh, Polygon, Smooth, Surface, Voxelize};
 use crate::polygon::face::{Face, Faces};
 use crate::polygon::shape;
+use crate::polygon::smooth::CornerNormals;
 use crate::volume::grid::Grid;
 
 /// Gives every polygon and mesh its faces, and all faces a surface.
@@ -36,8 +37,23 @@ pub(super) fn fill_in(world: &mut World) -> Result<(), Fault> {
             return Err(Fault::of(entity, "voxelize", "", problem));
         }
         fill(world, entity, (), |()| Ok(Surface::default()))?;
+        bend(world, entity)?;
     }
     Ok(())
+}
+
+/// Gives faces that are to look smooth the normals of their corners, and takes them off others.
+fn bend(world: &mut World, entity: Entity) -> Result<(), Fault> {
+    let smooth = world.get::<&Smooth>(entity).map(|smooth| *smooth).ok();
+    let faces = world.get::<&Faces>(entity).map(|faces| (*faces).clone()).ok();
+    let (Some(smooth), Some(faces)) = (smooth, faces) else {
+        withdraw::<(Smooth, Faces), CornerNormals>(world, entity);
+        return Ok(());
+    };
+    let normals = |(smooth, faces): &(Smooth, Faces)| {
+        Ok(CornerNormals::of(&faces.0, smooth.crease_degrees.to_radians()))
+    };
+    fill(world, entity, (smooth, faces), normals).map(drop)
 }
 
 fn faces_of_polygon(entity: Entity, polygon: &Polygon) -> Result<Faces, Fault> {

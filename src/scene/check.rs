@@ -3,7 +3,7 @@
 use crate::components::direction::unit;
 use crate::components::{
     CastsShadow, Classify, Clip, DepthCue, Estimate, Level, Light, Material, Mesh, Polygon,
-    Projects, Sampling, Shaft, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
+    Projects, Sampling, Shaft, Smooth, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
 };
 
 /// The strongest light: thousands of them, focused by a falloff of 1e-12, still add up to a number.
@@ -30,6 +30,7 @@ pub(super) trait Check {
 
 impl Check for Material {}
 impl Check for Surface {}
+impl Check for Smooth {}
 impl Check for Voxelize {}
 impl Check for CastsShadow {}
 impl Check for View {}

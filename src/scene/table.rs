@@ -18,8 +18,8 @@ use super::grammar;
 use crate::components::{
     Animate, Axes, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Estimate, KNOBS,
     Labels, Legend, Level, Light, Material, Mesh, Molecule, OrientationCube, Polygon, Projection,
-    Projects, Sampling, ScaleBar, Setting, Shaft, Surface, Texture, Textured, Title, View, Volume,
-    Voxelize,
+    Projects, Sampling, ScaleBar, Setting, Shaft, Smooth, Surface, Texture, Textured, Title, View,
+    Volume, Voxelize,
 };
 
 /// The entity that is at fault, and the sentence.
@@ -39,7 +39,7 @@ pub(super) struct Row {
 }
 
 /// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 29] = [
+pub(super) static COMPONENTS: [Row; 30] = [
     row::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
@@ -50,6 +50,7 @@ pub(super) static COMPONENTS: [Row; 29] = [
     row::<Mesh>("mesh", &[]),
     row::<Molecule>("molecule", &[]),
     row::<Surface>("surface", &["polygon", "mesh", "molecule"]),
+    row::<Smooth>("smooth", &["mesh", "molecule"]),
     row::<Voxelize>("voxelize", &["polygon", "mesh", "molecule"]),
     row::<Textured>("textured", &["polygon", "mesh"]),
     row::<Light>("light", &[]),

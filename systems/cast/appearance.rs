@@ -2,12 +2,13 @@
 
 use glam::{DVec3, Vec3};
 
+use super::bent::Bent;
 use super::texture::FaceTexture;
 use crate::components::Surface;
 use crate::light::shading::{Lamps, Reflectance};
 
 /// How a polygon of one orientation and surface looks under the lights of a scene: constant over it, but for the cue,
-/// textures and shadows.
+/// textures, shadows and what is bent.
 pub(crate) struct Appearance {
     /// α_P.
     pub opacity: f64,
@@ -19,6 +20,8 @@ pub(crate) struct Appearance {
     pub shadowed: Vec<DVec3>,
     /// For each of those lights, the way from a point of it to the one whose strength it gets; empty without strengths.
     pub shadow_offsets: Vec<DVec3>,
+    /// How it answers light where its normal is not the same all over it.
+    pub bent: Option<Box<Bent>>,
     /// Its texture.
     pub texture: Option<FaceTexture>,
 }
@@ -46,7 +49,23 @@ impl Appearance {
                 .map(|(_, lamp)| lamp.reflected(color, normal, &how).as_dvec3())
                 .collect(),
             shadow_offsets,
+            bent: None,
             texture,
         }
+    }
+
+    /// The same face, with a normal that runs from corner to corner.
+    pub fn bent(self, bent: Option<Bent>) -> Self {
+        Self { bent: bent.map(Box::new), ..self }
+    }
+
+    /// What it reflects at a world point of it of the lights that cast no shadow.
+    pub fn reflected_at(&self, world: impl Fn() -> DVec3) -> DVec3 {
+        self.bent.as_ref().map_or(self.reflected, |bent| bent.reflected(world()))
+    }
+
+    /// What it reflects there of the light of that number that does, unshadowed.
+    pub fn shadowed_at(&self, light: usize, world: impl Fn() -> DVec3) -> DVec3 {
+        self.bent.as_ref().map_or(self.shadowed[light], |bent| bent.shadowed(light, world()))
     }
 }

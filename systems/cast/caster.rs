@@ -134,7 +134,7 @@ impl<M: Media> BeamCaster<'_, M> {
                 if self.three_colors {
                     let plain = |hit: &Hit| match self.projections.shade(hit) {
                         Some(_) => (DVec3::ZERO, 0.0),
-                        None => self.polygons.plain(hit),
+                        None => self.polygons.plain(hit, packet.position(lane)),
                     };
                     let left = (ray.hits()[0] - from) as usize;
                     color.geometric = if surfaces {

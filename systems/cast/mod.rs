@@ -12,6 +12,7 @@ mod adaptive;
 mod appearance;
 mod band;
 mod beams;
+mod bent;
 mod bundle;
 mod caster;
 mod crossing;

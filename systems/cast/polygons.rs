@@ -102,10 +102,13 @@ impl Polygons {
         appearance.opacity >= 1.0 && appearance.texture.is_none()
     }
 
-    /// Associated colour and opacity of a hit, without texture and shadows.
-    pub fn plain(&self, hit: &Hit) -> (DVec3, f64) {
+    /// Associated colour and opacity of a hit of the ray at a position, without texture and shadows.
+    pub fn plain(&self, hit: &Hit, position: [i64; 2]) -> (DVec3, f64) {
         let appearance = self.faces[hit.face as usize].appearance();
-        let reflected = appearance.reflected + appearance.shadowed.iter().sum::<DVec3>();
+        let world = || self.camera.ray(Camera::window(position)).at(hit.depth);
+        let shadowed = |light| appearance.shadowed_at(light, world);
+        let lights = 0..appearance.shadowed.len();
+        let reflected = appearance.reflected_at(world) + lights.map(shadowed).sum::<DVec3>();
         ((appearance.ambient + reflected * self.fade(hit)) * appearance.opacity, appearance.opacity)
     }
 
@@ -117,7 +120,7 @@ impl Polygons {
     /// Shades a hit of the ray at a position, which stands for `step` positions.
     pub fn shade(&self, hit: &Hit, position: [i64; 2], step: usize) -> Shaded {
         let appearance = self.faces[hit.face as usize].appearance();
-        let (plain_color, plain_opacity) = self.plain(hit);
+        let (plain_color, plain_opacity) = self.plain(hit, position);
         if appearance.texture.is_none() && self.strengths.iter().all(Option::is_none) {
             return Shaded {
                 color: plain_color,
@@ -127,8 +130,10 @@ impl Polygons {
             };
         }
         let ray = self.camera.ray(Camera::window(position));
-        let shadowed = self.shadowed(appearance, ray.at(hit.depth));
-        let lit = appearance.ambient + (appearance.reflected + shadowed) * self.fade(hit);
+        let world = ray.at(hit.depth);
+        let shadowed = self.shadowed(appearance, world);
+        let reflected = appearance.reflected_at(|| world);
+        let lit = appearance.ambient + (reflected + shadowed) * self.fade(hit);
         let texel = appearance.texture.as_ref();
         let texel = texel.map_or(Vec4::ONE, |texture| texture.at(&ray, hit.depth, step));
         let texel = texel.as_dvec4();
@@ -147,7 +152,8 @@ impl Polygons {
             let offset = appearance.shadow_offsets.get(light).copied().unwrap_or_default();
             strength.map_or(1.0, |strength| f64::from(strength.at(world + offset)))
         };
-        appearance.shadowed.iter().enumerate().map(|(light, color)| *color * beta(light)).sum()
+        let lights = 0..appearance.shadowed.len();
+        lights.map(|light| appearance.shadowed_at(light, || world) * beta(light)).sum()
     }
 
     /// Where outlines ask for rays.

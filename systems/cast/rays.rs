@@ -1,9 +1,12 @@
 //! What the rays of a view meet, made of the inputs; and the errands that they are sent on.
 
+use std::sync::Arc;
+
 use fearless_simd::Level;
 
 use super::appearance::Appearance;
 use super::beams::Beams;
+use super::bent::Bent;
 use super::caster::BeamCaster;
 use super::cue::Cue;
 use super::inputs::{Inputs, Placed, Sampled};
@@ -95,6 +98,7 @@ pub fn send<E: Errand>(
 /// The polygons of a scene on a view.
 fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -> Polygons {
     let lamps = &inputs.lamps;
+    let shared = Arc::new(lamps.clone());
     let projected = inputs.polygons.iter().flat_map(|traced| {
         traced.faces.0.iter().enumerate().filter_map(|(at, face)| {
             let texture =
@@ -105,7 +109,9 @@ fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -
             let own = FaceColors::of(traced.colors.as_ref(), at);
             let color = own.unwrap_or(traced.surface.color);
             let surface = Surface { color, ..traced.surface };
-            let looks = Appearance::new(&surface, face.normal, lamps, offsets, texture);
+            let bent = traced.normals.as_ref().and_then(|normals| normals.over(at, face));
+            let bent = bent.map(|normal| Bent::new(normal, &surface, &shared));
+            let looks = Appearance::new(&surface, face.normal, lamps, offsets, texture).bent(bent);
             ProjectedFace::new(face, camera, looks, traced.faces.0.len())
         })
     });

@@ -1,13 +1,15 @@
-//! Facts about meshes: translucent triangles in any order come out as a brute-force sort has them.
+//! Facts about meshes: translucent triangles in any order come out as a brute-force sort has them, and smooth ones are lit as
+//! the surface that they stand for.
 
 use std::sync::Arc;
 
-use gelray::components::{OpacityUnit, Order, Sampling, View};
+use gelray::components::{Ellipsoid, OpacityUnit, Order, Sampling, View};
 use gelray::polygon::face::{Face, Faces};
+use gelray::prelude::{Light, Mesh, Renderer, Smooth, Surface};
 use gelray::view::extent::Extent;
 use gelray::view::ray::Ray;
 use gelray::volume::grid::{Grid, Painted};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
 use super::random_scenes::Chance;
@@ -156,4 +158,48 @@ fn translucent_triangles_come_out_as_a_brute_force_sort_has_them_from_eight_side
         assert!(compared > 17_000 && most > 15, "{compared} {most}");
         assert!(worst < bound, "{in_gel} {worst}");
     }
+}
+
+#[test]
+fn a_smooth_ball_of_triangles_is_lit_as_a_sphere() {
+    let toward = [0.3, -0.8, 0.5];
+    let off = |smooth: bool| {
+        let mut world = World::new();
+        let shape =
+            Ellipsoid { center: [0.0; 3], radii: [8.0; 3], subdivisions: 3, lumpiness: 0.0 };
+        let mesh = Mesh { ellipsoid: Some(shape), ..Mesh::default() };
+        let surface =
+            Surface { ambient: 0.1, diffuse: 0.8, two_sided: false, ..Surface::default() };
+        let ball = world.spawn((mesh, surface));
+        if smooth {
+            world.insert_one(ball, Smooth::default()).unwrap();
+        }
+        world.spawn((Light::from_direction(toward),));
+        let view = View {
+            focal_point: Some([0.0; 3]),
+            height_mm: Some(18.0),
+            size: [72; 2],
+            ..View::default()
+        };
+        let view = world.spawn((view, every_pixel()));
+        let light = world.query::<&Light>().iter().next().map(|l| l.color.0 * l.strength).unwrap();
+        Renderer::new().unwrap().render(&mut world).unwrap();
+        let made = rendered(&world, view);
+        let mut worst = 0.0_f64;
+        for (_, window, color) in made.rays() {
+            let ray = made.camera.ray(window);
+            let toward_middle = -ray.origin.dot(ray.along);
+            let near = (ray.origin + ray.along * toward_middle).length();
+            if near > 7.0 {
+                continue;
+            }
+            let normal = ray.at(toward_middle - (64.0 - near * near).sqrt()) / 8.0;
+            let facing = normal.dot(DVec3::from(toward).normalize()).max(0.0);
+            let expected = Vec3::splat(0.1) + light * 0.8 * facing as f32;
+            worst = worst.max(f64::from((expected - Vec3::from_slice(&color)).abs().max_element()));
+        }
+        worst
+    };
+    let (smooth, flat) = (off(true), off(false));
+    assert!(smooth < 0.012 && flat > 0.06, "{smooth} {flat}");
 }

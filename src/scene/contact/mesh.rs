@@ -22,7 +22,7 @@ pub(super) fn scene(path: &Path, size: [u32; 2]) -> (Source, String) {
     let said = format!("a mesh, taken with {axes}; another way is stated as `space` of its `mesh`");
     let [width, height] = size;
     let text = format!(
-        "# A mesh.\n[[entity]]\nname = \"mesh\"\nmesh = {{ file = {quoted}, space = \"{space}\" }}\nsurface = {{ color = \"#e8dcc8\", ambient = 0.06, diffuse = 0.86, specular = 0.1, shininess = 24 }}\n{}{LIGHTS}\n[[entity]]\nname = \"observer\"\nview = {{ azimuth = 25.0, elevation = 12.0, size = [{width}, {height}], background = \"#101418\" }}\n",
+        "# A mesh.\n[[entity]]\nname = \"mesh\"\nmesh = {{ file = {quoted}, space = \"{space}\" }}\nsmooth = {{ crease_degrees = 45.0 }}\nsurface = {{ color = \"#e8dcc8\", ambient = 0.06, diffuse = 0.86, specular = 0.1, shininess = 24 }}\n{}{LIGHTS}\n[[entity]]\nname = \"observer\"\nview = {{ azimuth = 25.0, elevation = 12.0, size = [{width}, {height}], background = \"#101418\" }}\n",
         key(false)
     );
     let said = format!("{name}: {said}");
