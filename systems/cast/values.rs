@@ -29,6 +29,8 @@ pub struct Values<'a> {
     field: Field<'a>,
     /// Which cells may be seen; `None`: all.
     pyramid: Option<PyramidSlices<'a>>,
+    /// Voxels on each axis.
+    size: [usize; 3],
     index_to_world: DAffine3,
     classifier: Classifier,
     /// Contours without thickness.
@@ -57,6 +59,7 @@ impl<'a> Values<'a> {
             classifier,
             field: Field::new(scalars, grid, *filter),
             pyramid,
+            size: grid.size,
             index_to_world: grid.index_to_world,
             cut: clip.as_ref().map(|clip| Cut::new(clip, grid)),
             lamps,
@@ -117,9 +120,24 @@ impl<'a> Values<'a> {
             return lanes;
         }
         match PyramidSlices::reaching(crossing::reach(tile)) {
-            Some(reaching) => each(lanes).filter(|&lane| near(reaching, lane)).fold(0, set),
+            Some(reaching) => each(lanes)
+                .filter(|&lane| near(reaching, lane))
+                .filter(|&lane| self.passes(pyramid, &Stretch::of(tile, lane, k)))
+                .fold(0, set),
             None => lanes,
         }
+    }
+
+    /// Whether a stretch passes cells that may be seen; those that it cannot leave are asked.
+    fn passes(&self, pyramid: PyramidSlices<'_>, stretch: &Stretch) -> bool {
+        let cell = |part: f64, axis: usize| {
+            (stretch.at(part)[axis] >> FRACTION_BITS).clamp(0, self.size[axis] as i64 - 1) as usize
+        };
+        let [x, y, z] = std::array::from_fn(|axis| {
+            let ends = [cell(0.0, axis), cell(1.0, axis)];
+            ends[0].min(ends[1])..=ends[0].max(ends[1])
+        });
+        z.into_iter().any(|z| y.clone().any(|y| x.clone().any(|x| pyramid.shows([x, y, z]))))
     }
 
     /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; `middle` is the value at
