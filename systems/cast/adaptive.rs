@@ -70,7 +70,10 @@ impl<'a, C: Caster> Refinement<'a, C> {
             if let Some(preview) = &mut preview {
                 preview.level(&self.array);
             }
-            let level = self.decide(side, parent.as_ref());
+            let mut level = self.decide(side, parent.as_ref());
+            if let Some(most) = self.crossed.most.filter(|_| side == POSITIONS) {
+                level.spare(most, layout.blocks(), |x, y| self.contrast(x * side, y * side, side));
+            }
             level.note(&mut self.array.splits, layout.blocks()[0]);
             if side == POSITIONS {
                 // The new positions on a region's right and lower edges are its neighbours'.
@@ -133,6 +136,15 @@ impl<'a, C: Caster> Refinement<'a, C> {
         above_a_pixel
             || crossed(&self.crossed.thin)
             || self.edges.as_ref().is_some_and(|edges| edges.iter().all(edge))
+    }
+
+    /// How clearly corners say that an edge is seen; without bound where the outline of a thin polygon does.
+    fn contrast(&self, i: usize, j: usize, side: usize) -> f32 {
+        if self.crossed.thin.as_ref().is_some_and(|thin| thin.cross(i, j, side)) {
+            return f32::INFINITY;
+        }
+        let ranges = self.edges.iter().flatten().map(|colors| self.range(colors, i, j, side));
+        ranges.fold(f32::INFINITY, f32::min)
     }
 
     /// Whether the corners of a region of more than a pixel differ in C by more than is tolerated.

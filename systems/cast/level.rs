@@ -67,6 +67,39 @@ impl Regions {
         lanes
     }
 
+    /// Keeps of the split regions, each of them a block, those of the greatest `contrast`, the first where that is equal: as
+    /// many as open no more than `most` of the `blocks`. A region opens the blocks to its right and below it too.
+    pub fn spare(
+        &mut self,
+        most: usize,
+        blocks: [usize; 2],
+        contrast: impl Fn(usize, usize) -> f32,
+    ) {
+        let split: Vec<usize> = (0..self.split.len()).filter(|at| self.split[*at]).collect();
+        if 3 * split.len() <= most {
+            return;
+        }
+        let place = |at: usize| (at % self.across, at / self.across);
+        let clear = |at: usize| contrast(place(at).0, place(at).1);
+        let mut ranked: Vec<(f32, usize)> = split.into_iter().map(|at| (clear(at), at)).collect();
+        ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut opened = vec![false; blocks[0] * blocks[1]];
+        let mut left = most;
+        for (_, at) in ranked {
+            let (x, y) = place(at);
+            let block = y * blocks[0] + x;
+            let new = [block, block + 1, block + blocks[0]];
+            let new = new.map(|block| (opened.get(block) == Some(&false)).then_some(block));
+            let count = new.iter().flatten().count();
+            if count > left {
+                (self.split[at], self.edges[at]) = (false, false);
+                continue;
+            }
+            left -= count;
+            new.into_iter().flatten().for_each(|block| opened[block] = true);
+        }
+    }
+
     /// Notes for the resampling which blocks of 4 × 4 positions are split, and which of their children.
     pub fn note(&self, splits: &mut [u8], blocks_across: usize) {
         if self.side > POSITIONS {
@@ -84,6 +117,37 @@ impl Regions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn regions_that_are_spared_leave_the_clearest_and_open_no_more_than_they_may() {
+        let (across, down) = (9, 7);
+        let contrast = |x: usize, y: usize| ((x * 5 + y * 3) % 8) as f32;
+        for most in [0, 1, 2, 3, 10, 25, 60, 200] {
+            let mut level = Regions::new([across, down], 4);
+            level.split.iter_mut().enumerate().for_each(|(at, split)| *split = at % 3 != 1);
+            level.edges.clone_from(&level.split);
+            let before = level.split.clone();
+            level.spare(most, [across + 1, down + 1], contrast);
+            assert_eq!(level.split, level.edges);
+            let kept: Vec<usize> = (0..across * down).filter(|at| level.split[*at]).collect();
+            assert!(kept.iter().all(|at| before[*at]));
+            let opens = |at: usize| {
+                let block = at / across * (across + 1) + at % across;
+                [block, block + 1, block + across + 1]
+            };
+            let mut opened: Vec<usize> = kept.iter().flat_map(|at| opens(*at)).collect();
+            opened.sort_unstable();
+            opened.dedup();
+            assert!(opened.len() <= most, "{} of {most}", opened.len());
+            if most >= 3 {
+                let clear = |at: &usize| contrast(at % across, at / across);
+                let clearest = (0..across * down).filter(|at| before[*at]).map(|at| clear(&at));
+                let most_clear = clearest.fold(0.0, f32::max);
+                assert!(kept.iter().any(|at| clear(at) == most_clear));
+            }
+            assert!(most < 200 || level.split == before);
+        }
+    }
 
     #[test]
     fn the_corners_that_a_packet_is_asked_for_are_those_of_split_regions() {

@@ -124,7 +124,8 @@ impl Errand for Refine<'_> {
         let sampling = &inputs.sampling;
         let layout = layout(&inputs.view, sampling);
         let edges = caster.has_edges();
-        let crossed = caster.polygons.crossed(&layout, sampling);
+        let most = caster.media.has_surfaces().then(|| targets::most_opened(&layout));
+        let crossed = Crossed { most, ..caster.polygons.crossed(&layout, sampling) };
         let mut preview = viewer.map(|viewer| Preview::new(viewer, &inputs.view, sampling));
         if let Some(preview) = &mut preview {
             for first in preview::before(sampling) {

@@ -163,7 +163,7 @@ impl Polygons {
         let outlines = (asked && sampling.coarsest > 4).then(|| self.outlines(layout, 8, |_| true));
         let is_thin = ProjectedFace::is_thin;
         let thin = asked && sampling.finest < 4 && self.faces.iter().any(is_thin);
-        Crossed { outlines, thin: thin.then(|| self.outlines(layout, 4, is_thin)) }
+        Crossed { outlines, thin: thin.then(|| self.outlines(layout, 4, is_thin)), most: None }
     }
 
     /// Which squares of `side` positions the outlines of the `wanted` faces cross.

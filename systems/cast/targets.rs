@@ -32,6 +32,9 @@ pub(crate) trait Caster: Sync {
     );
 }
 
+/// Blocks that may be opened for each that lies along the picture's width and its height.
+const TIMES_ROUND: usize = 24;
+
 /// Where outlines of polygons ask for rays, whatever the rays around them saw; nothing where that is not asked for.
 #[derive(Default)]
 pub(crate) struct Crossed {
@@ -39,6 +42,13 @@ pub(crate) struct Crossed {
     pub outlines: Option<Outlines>,
     /// Where they are split to the finest: where polygons are so thin that rays a pixel apart may miss them.
     pub thin: Option<Outlines>,
+    /// How many blocks may be opened for rays below a pixel; `None`: as many as outlines ask for, which a plan knows.
+    pub most: Option<usize>,
+}
+
+/// The most blocks that are opened where volumes have surfaces, whose silhouettes no plan knows: many times round a picture.
+pub fn most_opened(layout: &Layout) -> usize {
+    layout.blocks().iter().sum::<usize>() * TIMES_ROUND
 }
 
 /// Where outlines are: a flag for each square of positions.

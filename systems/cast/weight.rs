@@ -3,7 +3,7 @@
 use glam::DVec3;
 use hecs::World;
 
-use super::targets::Outlines;
+use super::targets::{Outlines, most_opened};
 use crate::components::{Classify, DepthCue, Sampling, Surface, View, Voxelize};
 use crate::polygon::face::{Face, Faces};
 use crate::polygon::outline::edges;
@@ -21,8 +21,8 @@ const MOST_PAIRS: usize = 1 << 22;
 
 /// The part of the outlines that is expected to be seen: what is hidden, or edges of facets alike, is not split.
 const SEEN: f64 = 0.5;
-/// The part of a picture that silhouettes of surfaces between voxels are expected to pass through.
-const SILHOUETTES: f64 = 0.1;
+/// The part of what may be opened for silhouettes of surfaces that is expected to be.
+const SILHOUETTES: f64 = 0.25;
 
 /// The most bytes, and the part of them that is expected.
 #[derive(Debug, Clone, Copy)]
@@ -31,8 +31,8 @@ pub(crate) struct Weight {
     pub part: f64,
 }
 
-/// What the rays of a view take: C at every pixel; where polygons are traced or values have surfaces, C_A and C_G too; and the positions between
-/// where a region may be split below a ray a pixel.
+/// What the rays of a view take: C at every pixel; where polygons are traced or values have surfaces, C_A and C_G too; and the
+/// positions between where a region may be split below a ray a pixel.
 pub(crate) fn of(
     world: &World,
     layout: &Layout,
@@ -52,7 +52,7 @@ pub(crate) fn of(
     } else if !supersampled {
         (0, 1.0)
     } else if surfaces {
-        (blocks, SILHOUETTES)
+        (blocks.min(most_opened(layout) as u64), SILHOUETTES)
     } else if world.query::<&DepthCue>().iter().next().is_some() {
         (blocks, SEEN)
     } else {
