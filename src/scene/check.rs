@@ -2,8 +2,7 @@
 
 use crate::components::direction::unit;
 use crate::components::{
-    CastsShadow, Classify, Clip, DepthCue, Estimate, Level, Light, Material, Mesh, Polygon,
-    Projects, Sampling, Shaft, Smooth, Surface, Texture, Textured, Toward, View, Volume, Voxelize,
+    Classify, Clip, Level, Light, Mesh, Projects, Sampling, Texture, Textured, Toward, Volume,
 };
 
 /// The strongest light: thousands of them, focused by a falloff of 1e-12, still add up to a number.
@@ -22,22 +21,9 @@ pub(super) fn wrong(at: impl Into<String>, problem: impl Into<String>) -> Result
 
 /// A component that can tell whether its keys suit each other.
 pub(super) trait Check {
-    /// Passes unless stated otherwise.
-    fn check(&self) -> Result<(), Wrong> {
-        Ok(())
-    }
+    /// Passes, or says what is wrong.
+    fn check(&self) -> Result<(), Wrong>;
 }
-
-impl Check for Material {}
-impl Check for Surface {}
-impl Check for Smooth {}
-impl Check for Voxelize {}
-impl Check for CastsShadow {}
-impl Check for View {}
-impl Check for DepthCue {}
-impl Check for Estimate {}
-impl Check for Shaft {}
-impl Check for Polygon {}
 
 impl Check for Volume {
     fn check(&self) -> Result<(), Wrong> {

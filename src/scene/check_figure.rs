@@ -1,18 +1,7 @@
 //! What the schema cannot say of labels, molecules and the furniture of figures.
 
 use super::check::{Check, Wrong, wrong};
-use crate::components::{
-    Axes, BoundingBox, Callout, Labels, Legend, Molecule, OrientationCube, Projection, ScaleBar,
-    Title,
-};
-
-impl Check for Title {}
-impl Check for ScaleBar {}
-impl Check for Callout {}
-impl Check for BoundingBox {}
-impl Check for Axes {}
-impl Check for OrientationCube {}
-impl Check for Projection {}
+use crate::components::{Labels, Legend, Molecule};
 
 impl Check for Labels {
     fn check(&self) -> Result<(), Wrong> {

@@ -1,4 +1,4 @@
-//! The one table of components: what a scene may state. A component more is a struct, its checks and a line here.
+//! The one table of components: what a scene may state. A component more is its file and a line here, and its checks if it has any.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -12,7 +12,7 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::check::Check;
+use super::check::{Check, Wrong};
 use super::error::Fault;
 use super::grammar;
 use crate::components::{
@@ -40,36 +40,36 @@ pub(super) struct Row {
 
 /// Every component that a scene may state, in the order in which messages list them.
 pub(super) static COMPONENTS: [Row; 30] = [
-    row::<Volume>("volume", &[]),
+    checked::<Volume>("volume", &[]),
     row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
     row::<Material>("material", &["volume"]),
-    row::<Clip>("clip", &["volume"]),
+    checked::<Clip>("clip", &["volume"]),
     row::<Projection>("projection", &["volume"]),
-    row::<Labels>("labels", &["volume"]),
+    checked::<Labels>("labels", &["volume"]),
     row::<Polygon>("polygon", &[]),
-    row::<Mesh>("mesh", &[]),
-    row::<Molecule>("molecule", &[]),
+    checked::<Mesh>("mesh", &[]),
+    checked::<Molecule>("molecule", &[]),
     row::<Surface>("surface", &["polygon", "mesh", "molecule"]),
     row::<Smooth>("smooth", &["mesh", "molecule"]),
     row::<Voxelize>("voxelize", &["polygon", "mesh", "molecule"]),
-    row::<Textured>("textured", &["polygon", "mesh"]),
-    row::<Light>("light", &[]),
+    checked::<Textured>("textured", &["polygon", "mesh"]),
+    checked::<Light>("light", &[]),
     row::<CastsShadow>("casts_shadow", &["light"]),
-    row::<Projects>("projects", &["light"]),
+    checked::<Projects>("projects", &["light"]),
     row::<Shaft>("shaft", &["light"]),
-    row::<Texture>("texture", &[]),
+    checked::<Texture>("texture", &[]),
     row::<Title>("title", &[]),
     row::<ScaleBar>("scale_bar", &[]),
-    row::<Legend>("legend", &[]),
+    checked::<Legend>("legend", &[]),
     row::<Callout>("callout", &[]),
     row::<BoundingBox>("bounding_box", &[]),
     row::<Axes>("axes", &[]),
     row::<OrientationCube>("orientation_cube", &[]),
     row::<View>("view", &[]),
-    row::<Sampling>("sampling", &["view"]),
+    checked::<Sampling>("sampling", &["view"]),
     row::<DepthCue>("depth_cue", &["view"]),
     row::<Estimate>("estimate", &["view"]),
-    row::<Animate>(
+    checked::<Animate>(
         "animate",
         &["volume", "polygon", "mesh", "molecule", "light", "texture", "view"],
     ),
@@ -107,21 +107,37 @@ impl Row {
     }
 }
 
+/// A component whose keys may be stated as the schema says.
 const fn row<T>(key: &'static str, with: &'static [&'static str]) -> Row
+where
+    T: DeserializeOwned + JsonSchema + Component + Clone + PartialEq + Serialize,
+{
+    let made = OnceLock::new();
+    let read = |row: &Row, value: &Spanned<DeValue>, entity: &mut EntityBuilder| {
+        read::<T>(row, value, entity, |_| Ok(()))
+    };
+    Row { key, with, schema: schema_of::<T>, made, read, check_world: check_all::<T> }
+}
+
+/// A component whose keys must suit each other too.
+const fn checked<T>(key: &'static str, with: &'static [&'static str]) -> Row
 where
     T: DeserializeOwned + JsonSchema + Check + Component + Clone + PartialEq + Serialize,
 {
     row_read_as::<T, T>(key, with)
 }
 
-/// A component that a scene states as a `T` and a world carries as a `W`.
+/// Such a component that a scene states as a `T` and a world carries as a `W`.
 const fn row_read_as<T, W>(key: &'static str, with: &'static [&'static str]) -> Row
 where
     T: DeserializeOwned + JsonSchema + Check + Component,
     W: Component + Clone + PartialEq + Serialize,
 {
     let made = OnceLock::new();
-    Row { key, with, schema: schema_of::<T>, made, read: read::<T>, check_world: check_all::<W> }
+    let read = |row: &Row, value: &Spanned<DeValue>, entity: &mut EntityBuilder| {
+        read::<T>(row, value, entity, T::check)
+    };
+    Row { key, with, schema: schema_of::<T>, made, read, check_world: check_all::<W> }
 }
 
 fn schema_of<T: JsonSchema>() -> Json {
@@ -131,16 +147,21 @@ fn schema_of<T: JsonSchema>() -> Json {
     schema
 }
 
-fn read<T>(row: &Row, value: &Spanned<DeValue>, entity: &mut EntityBuilder) -> Result<(), Fault>
+fn read<T>(
+    row: &Row,
+    value: &Spanned<DeValue>,
+    entity: &mut EntityBuilder,
+    check: impl Fn(&T) -> Result<(), Wrong>,
+) -> Result<(), Fault>
 where
-    T: DeserializeOwned + Check + Send + Sync + 'static,
+    T: DeserializeOwned + Component,
 {
     grammar::check(value, row.schema(), row.key)?;
     let component = T::deserialize(ValueDeserializer::from(value.clone())).map_err(|e| {
         let message = format!("`{}` cannot be used: {}", row.key, e.message());
         Fault::new(e.span().unwrap_or_else(|| value.span()), message)
     })?;
-    component.check().map_err(|wrong| {
+    check(&component).map_err(|wrong| {
         Fault::new(grammar::span_at(value, &wrong.at), format!("`{}` {}", row.key, wrong.problem))
     })?;
     entity.add(component);
