@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use gelray::formats::meshes::{Triangles, mesh_format, read_mesh};
+use gelray::formats::meshes::{mesh_format, read_mesh};
 use gelray::polygon::enclosed::Enclosed;
+use gelray::view::extent::Extent;
 use glam::DVec3;
 
 use super::failure::{Failure, tell};
@@ -18,7 +19,10 @@ pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
     }
     let format = mesh_format(path).map_or("mesh", |format| format.name);
     let enclosed = Enclosed::by(&triangles.vertices, &triangles.faces);
-    let [low, high] = extent(&triangles);
+    let extent = Extent::of(triangles.vertices.iter().copied());
+    let extent = extent.map_or("none".to_owned(), |Extent { low, high }| {
+        format!("{} to {}", point(low), point(high))
+    });
     let colors = if triangles.colors.is_empty() { "" } else { ", in the colors of its vertices" };
     let rows = [
         ("file", path.display().to_string()),
@@ -26,7 +30,7 @@ pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
             "triangles",
             format!("{} of {} points, {format}{colors}", triangles.faces.len(), enclosed.points),
         ),
-        ("extent", format!("{} to {}", point(low), point(high))),
+        ("extent", extent),
         ("area", number(enclosed.area)),
         ("closed", closed(&enclosed)),
     ];
@@ -46,11 +50,6 @@ fn closed(enclosed: &Enclosed) -> String {
     let stated = faults.iter().filter(|(count, _)| *count > 0);
     let stated: Vec<_> = stated.map(|(count, what)| format!("{count} edges {what}")).collect();
     format!("no: {}", stated.join(", "))
-}
-
-fn extent(triangles: &Triangles) -> [DVec3; 2] {
-    let start = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    triangles.vertices.iter().fold(start, |[low, high], v| [low.min(*v), high.max(*v)])
 }
 
 fn point(p: DVec3) -> String {

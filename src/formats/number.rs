@@ -170,6 +170,24 @@ impl NumberSource for Binary<'_> {
     }
 }
 
+/// Calls a function that is generic over the type that a [`NumberType`] names.
+macro_rules! of_type {
+    ($kind:expr, $of:ident, $arguments:tt) => {
+        match $kind {
+            NumberType::U8 => $of::<u8>$arguments,
+            NumberType::I8 => $of::<i8>$arguments,
+            NumberType::U16 => $of::<u16>$arguments,
+            NumberType::I16 => $of::<i16>$arguments,
+            NumberType::U32 => $of::<u32>$arguments,
+            NumberType::I32 => $of::<i32>$arguments,
+            NumberType::U64 => $of::<u64>$arguments,
+            NumberType::I64 => $of::<i64>$arguments,
+            NumberType::F32 => $of::<f32>$arguments,
+            NumberType::F64 => $of::<f64>$arguments,
+        }
+    };
+}
+
 /// One number a voxel, kept in its own type.
 pub(super) fn scalars(
     source: &mut impl NumberSource,
@@ -179,18 +197,7 @@ pub(super) fn scalars(
     fn of<T: Stored>(source: &mut impl NumberSource, count: usize) -> Result<Scalars, String> {
         source.array::<T, T>(count).map(T::scalars)
     }
-    match kind {
-        NumberType::U8 => of::<u8>(source, count),
-        NumberType::I8 => of::<i8>(source, count),
-        NumberType::U16 => of::<u16>(source, count),
-        NumberType::I16 => of::<i16>(source, count),
-        NumberType::U32 => of::<u32>(source, count),
-        NumberType::I32 => of::<i32>(source, count),
-        NumberType::U64 => of::<u64>(source, count),
-        NumberType::I64 => of::<i64>(source, count),
-        NumberType::F32 => of::<f32>(source, count),
-        NumberType::F64 => of::<f64>(source, count),
-    }
+    of_type!(kind, of, (source, count))
 }
 
 /// Numbers of any type as floats of 64 bits.
@@ -202,18 +209,7 @@ pub(super) fn numbers(
     fn of<T: Stored>(source: &mut impl NumberSource, count: usize) -> Result<Vec<f64>, String> {
         Ok(source.array::<T, T>(count)?.into_iter().map(T::wide).collect())
     }
-    match kind {
-        NumberType::U8 => of::<u8>(source, count),
-        NumberType::I8 => of::<i8>(source, count),
-        NumberType::U16 => of::<u16>(source, count),
-        NumberType::I16 => of::<i16>(source, count),
-        NumberType::U32 => of::<u32>(source, count),
-        NumberType::I32 => of::<i32>(source, count),
-        NumberType::U64 => of::<u64>(source, count),
-        NumberType::I64 => of::<i64>(source, count),
-        NumberType::F32 => of::<f32>(source, count),
-        NumberType::F64 => of::<f64>(source, count),
-    }
+    of_type!(kind, of, (source, count))
 }
 
 /// Four numbers a voxel, RGBA with straight alpha.

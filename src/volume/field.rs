@@ -239,4 +239,4 @@ fn finite(gradient: Vec3) -> Vec3 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

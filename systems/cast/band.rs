@@ -122,11 +122,9 @@ impl Band<'_> {
         wanted: Lanes,
         rays: &[RayColors; LANES],
     ) {
-        let across = layout.blocks()[0];
         for lane in each(wanted) {
             let (x, y) = (i + lane % SIDE * step, j - self.top + lane / SIDE * step);
-            let block = y / POSITIONS * across + x / POSITIONS;
-            let within = y % POSITIONS * POSITIONS + x % POSITIONS;
+            let (within, block) = layout.place(x, y);
             let ray = &rays[lane];
             for (part, color) in
                 self.colors.iter_mut().zip([&ray.full, &ray.attenuated, &ray.geometric])

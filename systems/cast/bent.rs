@@ -35,10 +35,8 @@ impl Bent {
 
     /// What it reflects there of the light of that number that does, unshadowed.
     pub fn shadowed(&self, light: usize, world: DVec3) -> DVec3 {
-        let lamp = self.lamps.shadowed.get(light);
-        let reflected = |lamp: &crate::light::shading::Lamp| {
+        self.lamps.shadowed.get(light).map_or(DVec3::ZERO, |(_, lamp)| {
             lamp.reflected(self.color, self.normal(world), &self.how).as_dvec3()
-        };
-        lamp.map_or(DVec3::ZERO, |(_, lamp)| reflected(lamp))
+        })
     }
 }

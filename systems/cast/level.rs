@@ -47,8 +47,7 @@ impl Regions {
 
     /// Whether a region is split; not outside the level.
     pub fn split(&self, x: usize, y: usize) -> bool {
-        let place = y.wrapping_mul(self.across).wrapping_add(x);
-        x < self.across && y < self.split.len() && self.split.get(place).is_some_and(|split| *split)
+        x < self.across && self.split.get(y * self.across + x).is_some_and(|split| *split)
     }
 
     /// Which positions of the lattice twice as fine are new and corners of a split region's children: of a packet of them
@@ -57,9 +56,8 @@ impl Regions {
         let mut lanes = 0;
         for (down, row) in CORNERS.iter().enumerate() {
             for (across, corners) in row.iter().enumerate() {
-                // Beyond the level's first regions there are none, and none so far behind its last.
-                let (x, y) = ((a / 2 + across).wrapping_sub(1), (b / 2 + down).wrapping_sub(1));
-                if self.split(x, y) {
+                let region = (a / 2 + across).checked_sub(1).zip((b / 2 + down).checked_sub(1));
+                if region.is_some_and(|(x, y)| self.split(x, y)) {
                     lanes |= corners;
                 }
             }

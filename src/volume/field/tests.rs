@@ -4,7 +4,8 @@ use super::*;
 
 const ALL: [Filter; 4] = [Filter::Linear, Filter::Cubic, Filter::CatmullRom, Filter::Interpolating];
 
-fn levels() -> Vec<Level> {
+/// Every set of instructions that this machine has.
+pub(crate) fn levels() -> Vec<Level> {
     let best = Level::new();
     let mut levels = vec![best, Level::baseline()];
     #[cfg(target_arch = "x86_64")]

@@ -11,6 +11,7 @@ use super::*;
 use crate::components::View;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
+use crate::volume::field::tests::levels;
 use crate::volume::gel::{CELLS, Texels};
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;
@@ -142,18 +143,6 @@ fn taken_with<I: Simd>(
         k += 1;
     }
     taken
-}
-
-/// Every set of instructions that this machine has.
-fn levels() -> Vec<Level> {
-    let best = Level::new();
-    let mut levels = vec![best, Level::baseline()];
-    #[cfg(target_arch = "x86_64")]
-    {
-        levels.extend(best.as_avx2().map(Level::Avx2));
-        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-    }
-    levels
 }
 
 /// A packet somewhere in a picture of 5 × 5 pixels; some through its very middle, where views along an axis run in planes of
