@@ -153,7 +153,6 @@ impl Flags {
                 "the threads that compute cannot be made ({error}); ask for fewer with --threads, or raise the limits of the system (`ulimit -u`, `ulimit -v`)"
             ))
         })?;
-        memory::settle();
         Ok(())
     }
 }

@@ -40,14 +40,6 @@ pub fn stack(threads: usize) -> Result<Option<usize>, Failure> {
     )))
 }
 
-/// Has each thread take the room for its small arrays now, where the system limits what may be mapped: what is left after
-/// is left for all.
-pub fn settle() {
-    if address_space_left().is_some() {
-        rayon::broadcast(|_| drop(std::hint::black_box(vec![0_u8; 64])));
-    }
-}
-
 /// What may be taken beside `taken` bytes that were read already, of the `most` that flags allow; `None` where nobody sets a
 /// limit.
 pub fn allowed(most: Option<u64>, taken: u64) -> Option<Allowed> {
@@ -93,7 +85,7 @@ impl Allowed {
 }
 
 /// Bytes that the process may still map, where the system limits them.
-fn address_space_left() -> Option<u64> {
+pub fn address_space_left() -> Option<u64> {
     let limits = std::fs::read_to_string("/proc/self/limits").ok()?;
     let limit = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     let most: u64 = limit.split_whitespace().next()?.parse().ok()?;

@@ -31,6 +31,7 @@ mod memory;
 mod motion;
 mod noted;
 mod number;
+mod one_heap;
 mod outputs;
 mod plan;
 mod plot;
@@ -228,6 +229,7 @@ fn parse(arguments: Vec<OsString>) -> Result<Cli, Unparsed> {
 
 /// Parses the arguments, runs the verb and says what went wrong.
 pub fn main(arguments: Vec<OsString>) -> ExitCode {
+    one_heap::share(&arguments);
     match parse(arguments) {
         Ok(Cli { verb, flags }) => match run(verb, &flags) {
             Ok(()) => ExitCode::SUCCESS,

@@ -57,6 +57,9 @@ pub enum Error {
         /// Bytes that were allowed.
         allowed: u64,
     },
+    /// The system does not give what the work needs, such as one more thread: a sentence.
+    #[error("{0}")]
+    System(String),
     /// The work was stopped on request; what was finished stays.
     #[error("interrupted: finished files are whole, nothing half-written is left")]
     Interrupted,

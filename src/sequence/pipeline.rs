@@ -4,6 +4,7 @@
 //! encoder is told, so that it leaves nothing half-written, or rendering stops at its next picture.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::Builder;
 use std::time::Duration;
 
 use crossbeam::channel::{Receiver, Sender, bounded};
@@ -108,15 +109,16 @@ pub fn run(
         (encoded, start.elapsed().saturating_sub(shots.idle))
     };
     let (rendered, encoded, waited) = std::thread::scope(|scope| {
-        let encoder = scope.spawn(thread);
+        let encoder = Builder::new().name("encoder".to_owned()).spawn_scoped(scope, thread)?;
         let rendered = render(&mut feed);
         if let Err(RenderFault::Failed(_)) = &rendered {
             let _ = feed.sender.send(Err(Error::Interrupted));
         }
         let Feed { sender, waited } = feed;
         drop(sender);
-        (rendered, encoder.join(), waited)
-    });
+        Ok((rendered, encoder.join(), waited))
+    })
+    .map_err(|problem| Stopped { error: unmade(&problem), done: 0 })?;
     let stopped = |error| Stopped { error, done: done.load(Ordering::Relaxed) };
     let Ok((encoded, busy)) = encoded else {
         return Err(stopped(Error::Schedule("the encoder broke off".to_owned())));
@@ -126,6 +128,12 @@ pub fn run(
     }
     encoded.map_err(stopped)?;
     Ok(Times { encoding: busy.as_secs_f64(), waited: waited.as_secs_f64() })
+}
+
+fn unmade(problem: &std::io::Error) -> Error {
+    Error::System(format!(
+        "a thread that encodes pictures cannot be made ({problem}); raise the limits of the system (`ulimit -u`, `ulimit -v`)"
+    ))
 }
 
 /// Why rendering came to its end too early.
