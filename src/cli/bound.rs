@@ -1,8 +1,13 @@
 //! The most bytes that a scene takes, before any is taken.
 
+use std::collections::HashMap;
+
 use gelray::components::View;
+use gelray::light::strength::ProjectedBy;
 use gelray::polygon::face::Faces;
+use gelray::polygon::texture;
 use gelray::schedule::{Job, Schedule};
+use gelray::view::picture::Picture;
 use hecs::World;
 
 use super::failure::Failure;
@@ -20,7 +25,7 @@ const ENCODED: u64 = 16;
 
 /// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
 pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
-    let taken = stats::voxels(world);
+    let taken = stats::voxels(world) + textures(world);
     let Some(allowed) = memory::allowed(flags.max_memory, taken) else { return Ok(()) };
     allowed.check(most_bytes(schedule, world) - taken, taken)
 }
@@ -30,10 +35,10 @@ pub fn jobs(schedule: &Schedule) -> impl Iterator<Item = &Job> {
     schedule.waves().iter().flatten()
 }
 
-/// What the program, voxels and polygons that were read take, and the most that is made of them.
+/// What the program, voxels, textures and polygons that were read take, and the most that is made of them.
 pub fn most_bytes(schedule: &Schedule, world: &World) -> u64 {
     let plans = jobs(schedule).map(|job| (job.plan)(world).bytes());
-    let beside = program() + encoding(world) + polygons(world);
+    let beside = program() + encoding(world) + polygons(world) + textures(world);
     plans.fold(stats::voxels(world).saturating_add(beside), u64::saturating_add)
 }
 
@@ -46,6 +51,14 @@ pub fn program() -> u64 {
 pub fn encoding(world: &World) -> u64 {
     let pixels = |view: &View| view.size.iter().map(|n| u64::from(*n)).product::<u64>();
     world.query::<&View>().iter().map(pixels).sum::<u64>() * ENCODED
+}
+
+/// Pictures of textures as they were read, each once, and their coarser levels.
+pub fn textures(world: &World) -> u64 {
+    let counted = |picture: &Picture| (picture.pixels.as_ptr(), picture.pixels.bytes());
+    let mut each_once: HashMap<_, _> = world.query::<&Picture>().iter().map(counted).collect();
+    each_once.extend(world.query::<&ProjectedBy>().iter().map(|slide| counted(&slide.picture)));
+    each_once.values().sum::<u64>() + texture::bytes_of(world)
 }
 
 /// Polygons as they were read, and as rays look for them.

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
+use gelray::formats::pictures::weighed;
 use gelray::formats::read_picture;
 use gelray::measure::error::{Difference, Errors, compare};
 use serde::Serialize;
@@ -11,6 +12,7 @@ use super::failure::{Failure, print};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::limit::Limit;
+use super::memory;
 use super::outputs;
 use super::results::Results;
 use super::table::table;
@@ -30,6 +32,9 @@ struct Stats<'a> {
     non_finite: [usize; 2],
 }
 
+/// As many bytes as the first picture takes are taken at the most, while the two are compared and their difference is written.
+const COMPARED: u64 = 12;
+
 /// Flags that have a use here.
 pub const TAKES: &[&str] = &["--output", "--stats", "--fail-below"];
 
@@ -40,6 +45,7 @@ pub fn run(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
         outputs::check_picture(map)?;
     }
     outputs::check(flags, &[a, b])?;
+    affordable(a, b, flags)?;
     let (first, second) = (read_picture(a)?, read_picture(b)?);
     let found = compare(&first, &second).map_err(|problem| {
         Failure::Said(format!("{} and {}: {problem}", a.display(), b.display()))
@@ -59,6 +65,13 @@ pub fn run(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
         print(&words(&found))?;
     }
     flags.fail_below.iter().try_for_each(|limit: &Limit| limit.check(&found.linear))
+}
+
+/// A failure if two pictures, and what is made of them pixel by pixel, are more than memory may hold.
+fn affordable(a: &Path, b: &Path, flags: &Flags) -> Result<(), Failure> {
+    let [a, b] = [weighed(a)?, weighed(b)?];
+    let compared = a.kept.saturating_mul(COMPARED).max(a.passing.max(b.passing));
+    memory::check(a.kept + b.kept + compared, flags.max_memory)
 }
 
 fn words(found: &Difference) -> String {

@@ -4,11 +4,11 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use gelray::formats::whole::check_writable;
-use gelray::formats::{Stated, read_volume, write_volume};
+use gelray::formats::{Stated, write_volume};
 
 use super::failure::{Failure, tell};
 use super::flags::Flags;
-use super::info::find;
+use super::info::{find, within};
 use super::same_file::same_file;
 
 /// Flags that have a use here.
@@ -31,7 +31,7 @@ pub fn run(from: &OsStr, to: &Path, flags: &Flags) -> Result<(), Failure> {
         )));
     }
     check_writable(to)?;
-    let loaded = read_volume(&from, &Stated::default())?;
+    let loaded = within(&from, &Stated::default(), flags)?;
     for warning in loaded.warnings.iter().filter(|_| !flags.quiet) {
         tell(format_args!("warning: {warning}"));
     }

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use gelray::formats::meshes::mesh_format;
 use gelray::formats::pictures::format_of;
-use gelray::formats::{Loaded, Voxels, is_headerless, is_volume, read_volume};
+use gelray::formats::{Loaded, Stated, Voxels, is_headerless, is_volume, read_volume, survey};
 use gelray::measure::histogram::{Histogram, histogram, suggested_isovalues};
 use gelray::measure::sigma::sigma;
-use gelray::phantom::phantom;
+use gelray::phantom::{most_bytes, phantom};
 use gelray::volume::grid::{Grid, Painted, Scalars};
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ use super::number::number;
 use super::raw_header::RawHeader;
 use super::sentence::DATA;
 use super::table::table;
-use super::{info_mesh, info_picture, outputs};
+use super::{info_mesh, info_picture, memory, outputs};
 
 /// Bins of the histogram that is printed.
 const BINS: usize = 24;
@@ -36,7 +36,7 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
     let path = find(file, flags);
     outputs::check(flags, &[&path])?;
     if format_of(&path).is_some_and(|format| format.read.is_some()) && !is_volume(&path) {
-        return outputs::print_or_write(&info_picture::words(&path)?, flags);
+        return outputs::print_or_write(&info_picture::words(&path, flags)?, flags);
     }
     if mesh_format(&path).is_some() && path.is_file() {
         return outputs::print_or_write(&info_mesh::words(&path, flags.quiet)?, flags);
@@ -48,7 +48,10 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
         return Err(Failure::Said(format!("{path}: no such file; correct the path ({DATA})")));
     }
     let loaded = match phantom_name {
-        Some(name) => phantom(name.trim()).map_err(Failure::Said)?,
+        Some(name) => {
+            memory::check(most_bytes(name.trim()), flags.max_memory)?;
+            phantom(name.trim()).map_err(Failure::Said)?
+        }
         None => read(&path, flags)?,
     };
     for warning in loaded.warnings.iter().filter(|_| !flags.quiet) {
@@ -67,7 +70,13 @@ fn read(path: &Path, flags: &Flags) -> Result<Loaded, Failure> {
     if stated.is_none() && is_headerless(path) && path.is_file() {
         return Err(asked());
     }
-    Ok(read_volume(path, &stated.unwrap_or_default())?)
+    within(path, &stated.unwrap_or_default(), flags)
+}
+
+/// The volume of a file, if it is not more than memory may hold.
+pub fn within(path: &Path, stated: &Stated, flags: &Flags) -> Result<Loaded, Failure> {
+    memory::check(survey(path, stated)?.bytes, flags.max_memory)?;
+    Ok(read_volume(path, stated)?)
 }
 
 /// The file as given, or the first of that name in the folders of data.

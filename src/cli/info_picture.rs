@@ -2,16 +2,19 @@
 
 use std::path::Path;
 
-use gelray::formats::pictures::format_of;
+use gelray::formats::pictures::{format_of, weighed};
 use gelray::formats::read_picture;
 use gelray::view::picture::Picture;
 
 use super::failure::Failure;
+use super::flags::Flags;
+use super::memory;
 use super::number::number;
 use super::table::table;
 
 /// What a picture holds, a fact a line.
-pub fn words(path: &Path) -> Result<String, Failure> {
+pub fn words(path: &Path, flags: &Flags) -> Result<String, Failure> {
+    memory::check(weighed(path)?.most(), flags.max_memory)?;
     let picture = read_picture(path)?;
     let [width, height] = picture.size;
     let name = format_of(path).map_or("picture", |format| format.name);

@@ -50,6 +50,11 @@ pub fn allowed(most: Option<u64>, taken: u64) -> Option<Allowed> {
     stated.into_iter().chain(system).min_by_key(|allowed| allowed.more)
 }
 
+/// A failure if `needed` bytes are more than a run may take, beside what it has taken already; `most` as in [`allowed`].
+pub fn check(needed: u64, most: Option<u64>) -> Result<(), Failure> {
+    allowed(most, 0).map_or(Ok(()), |allowed| allowed.check(needed, 0))
+}
+
 impl Allowed {
     /// Bytes that may be taken beside those that are taken already.
     pub fn more(self) -> u64 {
@@ -79,7 +84,7 @@ impl Allowed {
     fn refused(self, needed: u64) -> Failure {
         let [needed, more] = [needed, self.more].map(human);
         Failure::Said(format!(
-            "up to {needed} of memory are needed and the system lets this process have {more} more; raise its limit (`ulimit -v`), or choose a smaller `size` or volume"
+            "up to {needed} of memory are needed and the system lets this process have {more} more; raise its limit (`ulimit -v`), or choose a smaller `size`, volume or texture"
         ))
     }
 }

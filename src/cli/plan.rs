@@ -55,6 +55,7 @@ fn words(schedule: &Schedule, world: &World) -> String {
     let beside = [
         (bound::program(), "the program and its threads"),
         (bound::polygons(world), "polygons, as they were read and as rays look for them"),
+        (bound::textures(world), "textures, as they were read and at their coarser levels"),
         (bound::encoding(world), "the file of the picture, while it is made"),
     ];
     let known = beside.iter().map(|(bytes, _)| bytes).sum::<u64>().saturating_add(voxels);

@@ -14,7 +14,7 @@ pub fn sentence(error: &Error) -> String {
             format!("{}: {}{remedy}", place(fault), fault.message)
         }
         Error::Memory { needed, allowed } => format!(
-            "the plan needs up to {needed} bytes and --max-memory allows {allowed}; raise the limit, choose a smaller `size` or volume, or a smaller `texel`"
+            "the plan needs up to {needed} bytes and --max-memory allows {allowed}; raise the limit, choose a smaller `size`, volume or texture, or a smaller `texel`"
         ),
         error => error.to_string(),
     }

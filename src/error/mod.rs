@@ -49,7 +49,7 @@ pub enum Error {
     },
     /// More memory may be needed than is allowed.
     #[error(
-        "up to {needed} bytes are needed and {allowed} are allowed; allow more, or choose a smaller `size` or volume, or a smaller `texel`"
+        "up to {needed} bytes are needed and {allowed} are allowed; allow more, or choose a smaller `size`, volume or texture, or a smaller `texel`"
     )]
     Memory {
         /// Bytes that are needed at the most.

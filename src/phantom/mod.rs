@@ -11,7 +11,7 @@ mod textures;
 use crate::formats::Loaded;
 use choice::choose;
 pub use simple::ball;
-pub use textures::{is_texture, texture};
+pub use textures::{TEXTURE_BYTES, is_texture, texture};
 
 /// Makes a volume.
 type Maker = fn() -> Loaded;

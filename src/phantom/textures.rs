@@ -8,6 +8,9 @@ use crate::view::picture::Picture;
 /// Texels on each side.
 const SIDE: usize = 256;
 
+/// Bytes that the picture of a formula takes.
+pub const TEXTURE_BYTES: u64 = (SIDE * SIDE * size_of::<[f32; 4]>()) as u64;
+
 /// The colour of a texel at its centre, in texels from the upper left corner.
 type Formula = fn(Vec2) -> [f32; 4];
 

@@ -93,10 +93,14 @@ impl Loading<'_> {
     /// Counts an array of `bytes` that is to be read; an error if it and those before are more than may be.
     pub fn afford(&mut self, bytes: u64) -> Result<(), Error> {
         self.bytes = self.bytes.saturating_add(bytes);
+        self.afford_passing(0)
+    }
+
+    /// An error if what was counted and `bytes` beside, which are given back soon, are more than may be.
+    pub fn afford_passing(&self, bytes: u64) -> Result<(), Error> {
+        let needed = self.bytes.saturating_add(bytes);
         match self.most_bytes {
-            Some(allowed) if self.bytes > allowed => {
-                Err(Error::Memory { needed: self.bytes, allowed })
-            }
+            Some(allowed) if needed > allowed => Err(Error::Memory { needed, allowed }),
             _ => Ok(()),
         }
     }

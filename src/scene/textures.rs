@@ -6,6 +6,7 @@ use super::kept::KeptPicture;
 use super::loading::Loading;
 use crate::components::{Projects, Texture, Textured};
 use crate::error::Error;
+use crate::formats::pictures::weighed;
 use crate::formats::read_picture;
 use crate::phantom;
 use crate::view::picture::Picture;
@@ -61,9 +62,15 @@ fn kept_or_read(loading: &mut Loading, entry: usize, texture: &Texture) -> Resul
     Ok(picture)
 }
 
+/// Bytes of a picture of `kept` bytes with the levels that are made of it for polygons: its texels again, and a third more.
+fn mapped(kept: u64) -> u64 {
+    kept.saturating_mul(7).div_ceil(3)
+}
+
 /// What a texture of the scene holds: its formula, its file, or what stands in for its file.
 fn picture(loading: &mut Loading, entry: usize, texture: &Texture) -> Result<Picture, Error> {
-    let made = |loading: &Loading, key, name: &str| {
+    let made = |loading: &mut Loading, key, name: &str| {
+        loading.afford(mapped(phantom::TEXTURE_BYTES))?;
         phantom::texture(name).map_err(|problem| loading.error(entry, "texture", key, problem))
     };
     if let Some(formula) = &texture.formula {
@@ -72,6 +79,10 @@ fn picture(loading: &mut Loading, entry: usize, texture: &Texture) -> Result<Pic
     let file = texture.file.as_deref().unwrap_or_default();
     if let Some(path) = loading.folders.find(file) {
         loading.files.push(path.clone());
+        let weight = weighed(&path)?;
+        loading.afford(weight.kept)?;
+        loading.afford_passing(weight.passing)?;
+        loading.afford(mapped(weight.kept) - weight.kept)?;
         return read_picture(&path);
     }
     let missing = loading.folders.missing(file);

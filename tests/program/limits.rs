@@ -21,17 +21,73 @@ fn a_process_that_the_system_lets_have_little_memory_says_so() {
         assert_eq!(code, Some(1), "{kilobytes}: {said}");
         assert!(said.contains("ulimit") && said.lines().count() == 1, "{kilobytes}: {said}");
     }
-    // Enough for a small scene, or a sentence: whatever the limit, nothing else.
-    for kilobytes in (40_000..400_000).step_by(40_000) {
-        let (code, said) = tried(kilobytes, "render cross.toml -t 3 -q -o a.png --size 99x99");
-        assert!(matches!(code, Some(0 | 1)), "{kilobytes}: {code:?} {said}");
-        assert!(code == Some(0) || said.lines().count() == 1, "{kilobytes}: {said}");
+    // Enough, or a sentence: whatever the limit, nothing else. Threads that each took a heap of their own, whenever they
+    // came to it, ended one run of hundreds without a word.
+    place.write("v.npy", npy_of_bytes(100));
+    place.done("render cross.toml -q -o b.png --size 700x700");
+    for (step, words) in [
+        (40_000, "render cross.toml -t 3 -q -o a.png --size 99x99"),
+        (9_000, "render minimal_6 -t 1 -q -o a.png --size 48x48"),
+        (9_001, "render minimal_6 -t 3 -q -o a.png --size 48x48"),
+        (23_000, "animate minimal_3 -t 2 -q -o a.gif --size 48x48 --frames 3"),
+        (30_000, "compare b.png b.png -t 2 -q -o a.png"),
+        (23_001, "info b.png -t 2"),
+        (23_002, "info v.npy -t 2"),
+        (23_003, "info phantom:head -t 1"),
+    ] {
+        for kilobytes in (40_000..230_000).step_by(step) {
+            let (code, said) = tried(kilobytes, words);
+            assert!(matches!(code, Some(0 | 1)), "{words}, {kilobytes}: {code:?} {said}");
+            assert!(code == Some(0) || said.lines().count() == 1, "{words}, {kilobytes}: {said}");
+        }
         let _ = std::fs::remove_file(place.path("a.png"));
+        let _ = std::fs::remove_file(place.path("a.gif"));
+    }
+    for name in ["v.npy", "b.png"] {
+        std::fs::remove_file(place.path(name)).unwrap();
     }
     let (code, said) = tried(60_000, "render cross.toml -t 512 -q -o a.png");
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("--threads") && said.lines().count() == 1, "{said}");
     assert_eq!(place.names(), ["cross.toml"]);
+}
+
+/// A volume of bytes, `n` voxels a side, as NumPy writes it.
+#[cfg(target_os = "linux")]
+fn npy_of_bytes(n: usize) -> Vec<u8> {
+    let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': ({n}, {n}, {n}), }}");
+    let header = format!("{header:<117}\n");
+    let voxels = (0..n * n * n).map(|i| (i * 7919 % 251) as u8);
+    [b"\x93NUMPY\x01\x00\x76\x00", header.as_bytes()].concat().into_iter().chain(voxels).collect()
+}
+
+/// A scene of a polygon with a black picture on it, `n` pixels a side and a bit each, in `scene.toml` and `black.png`.
+pub fn write_textured(place: &Place, scene: &str, n: u32) {
+    let mut encoder =
+        png::Encoder::new(std::fs::File::create(place.path("black.png")).unwrap(), n, n);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::One);
+    let rows = vec![0; n.div_ceil(8) as usize * n as usize];
+    encoder.write_header().unwrap().write_image_data(&rows).unwrap();
+    let textured = "textured = { texture = \"black\" }\n[[entity]]\nname = \"black\"\ntexture = { file = \"black.png\" }\n[[entity]]\nname = \"blue\"\n";
+    place.write(scene, CROSS.replace("[[entity]]\nname = \"blue\"\n", textured));
+}
+
+#[test]
+fn a_texture_is_weighed_by_its_header_before_it_is_decoded() {
+    let place = Place::new();
+    // A quarter of a gibibyte of pixels, 16 bytes each, of a file of some kilobytes.
+    write_textured(&place, "s.toml", 4096);
+    let start = Instant::now();
+    let most = (64 << 20).to_string();
+    for verb in ["plan s.toml", "render s.toml -o a.png"] {
+        place.refused(&format!("{verb} --max-memory 64M"), 1, &[&most, "268435456", "texture"]);
+    }
+    assert!(start.elapsed().as_secs_f64() < 0.5);
+    assert!(!place.path("a.png").exists());
+    // One that cannot be decoded is refused as before, whatever it would take.
+    place.write("black.png", "no picture");
+    place.refused("render s.toml -o a.png --max-memory 64M", 1, &["black.png", "PNG"]);
 }
 
 #[test]

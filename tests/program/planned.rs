@@ -176,6 +176,23 @@ casts_shadow = {}
     assert!(taken > 0 && taken <= most, "{taken} of {most}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn textures_that_were_read_are_in_the_plan() {
+    let place = Place::new();
+    super::limits::write_textured(&place, "textured.toml", 1500);
+    let plan = place.done("plan textured.toml").out;
+    let line = plan.lines().find(|line| line.contains("textures, as they were read")).unwrap();
+    // 16 bytes a texel, and again with a third more for the coarser levels.
+    let texels = 1500_u64 * 1500 * 16;
+    let stated: u64 = line
+        .split_whitespace()
+        .find_map(|word| word.parse().ok().filter(|n| *n > 1_000_000))
+        .unwrap();
+    assert!((texels * 23 / 10..texels * 12 / 5).contains(&stated), "{line}");
+    assert_near("textured.toml", against_peak(&place, "textured.toml"));
+}
+
 #[test]
 fn polygons_that_were_read_are_in_the_plan() {
     let place = Place::new();

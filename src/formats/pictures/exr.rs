@@ -13,13 +13,18 @@ use exr::prelude::{
     read as reader,
 };
 
-use super::{Notes, PictureFormat, checked_size, whole, wrong};
+use super::{Notes, Opened, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub(crate) const FORMAT: PictureFormat =
-    PictureFormat { name: "EXR", extensions: &["exr"], read: Some(read), write: Some(write) };
+pub(crate) const FORMAT: PictureFormat = PictureFormat {
+    name: "EXR",
+    extensions: &["exr"],
+    read: Some(read),
+    size: Some(size),
+    write: Some(write),
+};
 
 /// Writes scan lines of float RGBA, compressed without loss (ZIP) by all threads; a note is a text attribute `gelray.` and
 /// its name.
@@ -95,6 +100,18 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
         return Err("has no channels R, G and B, nor Y; write it with those names".to_owned());
     };
     place(layer.map_err(|error| wrong("EXR", error))?)
+}
+
+/// The largest of its layers and of what is meant to be seen; a crop is laid into that.
+fn size(file: &mut dyn Opened) -> Result<([usize; 2], u64), String> {
+    let meta = MetaData::read_from_buffered(file, false).map_err(|error| wrong("EXR", error))?;
+    meta.headers.iter().try_for_each(check)?;
+    let sizes = meta.headers.iter().flat_map(|header| {
+        let window = header.shared_attributes.display_window.size;
+        [header.layer_size, window].map(|size| [size.width(), size.height()])
+    });
+    let largest = sizes.max_by_key(|size| size[0] * size[1]);
+    Ok((largest.ok_or_else(|| wrong("EXR", "it holds no layer"))?, 16))
 }
 
 /// The pixels of a layer, and where they lie in what is meant to be seen.

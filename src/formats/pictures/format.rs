@@ -1,5 +1,7 @@
 //! What a format of pictures is, and what its readers share: how large a picture may be, and what is said of a broken one.
 
+use std::io::{BufRead, Seek};
+
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
@@ -8,6 +10,14 @@ pub type Notes = [(String, String)];
 
 /// Makes a picture of a file's bytes; the failure is a sentence without a subject.
 pub type Reader = fn(&[u8]) -> Result<Picture, String>;
+
+/// A file of which the header alone is read.
+pub trait Opened: BufRead + Seek {}
+
+impl<T: BufRead + Seek> Opened for T {}
+
+/// What a header states: pixels across and down, and the most bytes that a pixel takes while it is decoded, beside its floats.
+pub type Sizer = fn(&mut dyn Opened) -> Result<([usize; 2], u64), String>;
 
 /// Writes a picture and its notes.
 pub type Writer = fn(&mut dyn Sink, &Picture, &Notes) -> Result<(), Failure>;
@@ -21,6 +31,8 @@ pub struct PictureFormat {
     pub extensions: &'static [&'static str],
     /// How it is read, if it is.
     pub read: Option<Reader>,
+    /// How its size is read, of its header alone.
+    pub size: Option<Sizer>,
     /// How it is written, if it is.
     pub write: Option<Writer>,
 }

@@ -6,7 +6,7 @@ use image::codecs::jpeg::{JpegDecoder, JpegEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, Limits};
 
 use super::encoded::{Alpha, from_codes, to_bytes};
-use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
+use super::{MOST_PIXELS, Notes, Opened, PictureFormat, checked_size, whole, wrong};
 use crate::formats::moving::opaque::over_black;
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
@@ -19,6 +19,7 @@ pub(crate) const FORMAT: PictureFormat = PictureFormat {
     name: "JPEG",
     extensions: &["jpg", "jpeg"],
     read: Some(read),
+    size: Some(size),
     write: Some(write),
 };
 
@@ -34,6 +35,14 @@ pub fn write(sink: &mut dyn Sink, picture: &Picture, _: &Notes) -> Result<(), Fa
         ExtendedColorType::Rgb8,
     )?;
     Ok(sink.write_all(&bytes)?)
+}
+
+/// Eight-bit codes, once more as they are turned, and coefficients of a progressive one.
+fn size(file: &mut dyn Opened) -> Result<([usize; 2], u64), String> {
+    let mut decoder = jpeg_decoder::Decoder::new(file);
+    decoder.read_info().map_err(|error| wrong("JPEG", error))?;
+    let found = decoder.info().ok_or_else(|| wrong("JPEG", "it states no size"))?;
+    Ok((checked_size(found.width.into(), found.height.into())?, 12))
 }
 
 /// Reads grey and colour, baseline and progressive, opaque.

@@ -16,6 +16,7 @@ pub mod png;
 mod ray_map;
 pub mod tiff;
 pub mod webp;
+mod weight;
 
 #[cfg(test)]
 mod tests;
@@ -29,9 +30,10 @@ use crate::formats::whole::{Whole, check_writable, written_beside};
 use crate::view::picture::Picture;
 
 pub(crate) use format::{MOST_PIXELS, checked_size, whole, wrong};
-pub use format::{Notes, PictureFormat, Reader, Writer};
+pub use format::{Notes, Opened, PictureFormat, Reader, Sizer, Writer};
 pub use layers::{PixelLayer, layers_beside};
 pub use ray_map::{ray_map_beside, write_ray_map};
+pub use weight::{Weight, weighed};
 
 /// Every known format of pictures.
 pub static PICTURE_FORMATS: [PictureFormat; 6] =
@@ -54,15 +56,24 @@ pub fn format_of(path: &Path) -> Option<&'static PictureFormat> {
 pub fn read_picture(path: &Path) -> Result<Picture, Error> {
     let read = format_of(path).and_then(|format| format.read);
     let read = read.ok_or_else(|| unknown(path, |format| format.read.is_some()))?;
-    let unreadable = |error| Error::file(path, format!("cannot be read ({error}); check the path"));
-    let found = fs::metadata(path).map_err(unreadable)?;
-    if !found.is_file() || found.len() > LONGEST_FILE {
-        return Err(Error::file(
-            path,
-            format!("is no file of at most {LONGEST_FILE} bytes; state the path of a picture"),
-        ));
+    checked_length(path)?;
+    let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
+    read(&bytes).map_err(|problem| Error::format(path, problem))
+}
+
+/// The bytes of a file, if it is one that may be read.
+fn checked_length(path: &Path) -> Result<u64, Error> {
+    let found = fs::metadata(path).map_err(|error| unreadable(path, &error))?;
+    if found.is_file() && found.len() <= LONGEST_FILE {
+        return Ok(found.len());
     }
-    read(&fs::read(path).map_err(unreadable)?).map_err(|problem| Error::format(path, problem))
+    let problem =
+        format!("is no file of at most {LONGEST_FILE} bytes; state the path of a picture");
+    Err(Error::file(path, problem))
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+    Error::file(path, format!("cannot be read ({error}); check the path"))
 }
 
 /// Writes a picture in the format that the name's extension says, whole or not at all.

@@ -1,12 +1,19 @@
 //! NumPy arrays (`.npy`): float32, height × width × 4, C order, little-endian; linear and associated. No notes.
 
-use super::{Notes, PictureFormat, checked_size, whole, wrong};
+use std::io::Read;
+
+use super::{Notes, Opened, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub(crate) const FORMAT: PictureFormat =
-    PictureFormat { name: "NPY", extensions: &["npy"], read: Some(read), write: Some(write) };
+pub(crate) const FORMAT: PictureFormat = PictureFormat {
+    name: "NPY",
+    extensions: &["npy"],
+    read: Some(read),
+    size: Some(size),
+    write: Some(write),
+};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
@@ -29,8 +36,33 @@ pub(super) fn header(shape: &str) -> Vec<u8> {
     bytes
 }
 
+/// The longest header that is read where the size alone is asked for, bytes.
+const LONGEST_HEADER: u64 = 1 << 17;
+
+/// The floats are those of the file.
+fn size(file: &mut dyn Opened) -> Result<([usize; 2], u64), String> {
+    let mut bytes = Vec::new();
+    file.take(LONGEST_HEADER).read_to_end(&mut bytes).map_err(|error| wrong("NPY", error))?;
+    Ok((stated(&bytes)?.0, 0))
+}
+
 /// Reads the array, of versions 1 to 3 of the format.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
+    let (size, body) = stated(bytes)?;
+    let (values, extra) = body.as_chunks::<4>();
+    let (pixels, rest) = values.as_chunks::<4>();
+    if !extra.is_empty() || !rest.is_empty() || pixels.len() != size[0] * size[1] {
+        return Err(format!(
+            "holds {} bytes of values and its shape needs {}; the file is damaged",
+            body.len(),
+            size[0] * size[1] * 16
+        ));
+    }
+    whole(size, pixels.iter().map(|pixel| pixel.map(f32::from_le_bytes)).collect())
+}
+
+/// The size that a header states, and the bytes behind it.
+fn stated(bytes: &[u8]) -> Result<([usize; 2], &[u8]), String> {
     let short = || wrong("NPY", "it is cut short or begins with other bytes");
     let rest = bytes.strip_prefix(MAGIC).ok_or_else(short)?;
     let (length, rest) = match rest {
@@ -42,17 +74,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let header: String =
         header.iter().map(|&b| char::from(b)).filter(|c| !c.is_whitespace()).collect();
     let [width, height] = shape(&header)?;
-    let size = checked_size(width, height)?;
-    let (values, extra) = body.as_chunks::<4>();
-    let (pixels, rest) = values.as_chunks::<4>();
-    if !extra.is_empty() || !rest.is_empty() || pixels.len() != size[0] * size[1] {
-        return Err(format!(
-            "holds {} bytes of values and its shape needs {}; the file is damaged",
-            body.len(),
-            size[0] * size[1] * 16
-        ));
-    }
-    whole(size, pixels.iter().map(|pixel| pixel.map(f32::from_le_bytes)).collect())
+    Ok((checked_size(width, height)?, body))
 }
 
 /// Width and height of an array whose header, without spaces, states the one layout that is read.

@@ -8,13 +8,18 @@ use png::{
 
 use super::bands;
 use super::encoded::{Alpha, from_codes, to_bytes};
-use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
+use super::{MOST_PIXELS, Notes, Opened, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
 /// Read and written.
-pub(crate) const FORMAT: PictureFormat =
-    PictureFormat { name: "PNG", extensions: &["png"], read: Some(read), write: Some(write) };
+pub(crate) const FORMAT: PictureFormat = PictureFormat {
+    name: "PNG",
+    extensions: &["png"],
+    read: Some(read),
+    size: Some(size),
+    write: Some(write),
+};
 
 /// Writes 8-bit RGBA, marked as sRGB, with each note as an `iTXt` chunk before the pixels, which all threads deflate.
 pub fn write(sink: &mut dyn Sink, picture: &Picture, notes: &Notes) -> Result<(), Failure> {
@@ -56,6 +61,15 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
         from_codes(&buffer, channels, u8::MAX, Alpha::Straight)
     };
     whole(size, pixels)
+}
+
+/// Codes of 16 bits are taken apart once more than those of 8.
+fn size(file: &mut dyn Opened) -> Result<([usize; 2], u64), String> {
+    let mut decoder = Decoder::new(file);
+    let found = decoder.read_header_info().map_err(|error| wrong("PNG", error))?;
+    let (width, height) = found.size();
+    let a_pixel = if found.bit_depth == BitDepth::Sixteen { 16 } else { 4 };
+    Ok((checked_size(width.into(), height.into())?, a_pixel))
 }
 
 #[cfg(test)]

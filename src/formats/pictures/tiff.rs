@@ -10,7 +10,7 @@ use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, TiffKind, TiffValue}
 use tiff::tags::{ExtraSamples, Tag, Type};
 
 use super::encoded::{Alpha, from_codes, from_floats};
-use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
+use super::{MOST_PIXELS, Notes, Opened, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
@@ -19,6 +19,7 @@ pub(crate) const FORMAT: PictureFormat = PictureFormat {
     name: "TIFF",
     extensions: &["tiff", "tif"],
     read: Some(read),
+    size: Some(size),
     write: Some(write),
 };
 
@@ -94,6 +95,13 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
         _ => return Err(unread("other integers or floats")),
     };
     whole(size, pixels)
+}
+
+/// Samples as they lie in the file, of up to four channels of floats.
+fn size(file: &mut dyn Opened) -> Result<([usize; 2], u64), String> {
+    let mut decoder = Decoder::new(file).map_err(|error| wrong("TIFF", error))?;
+    let (width, height) = decoder.dimensions().map_err(|error| wrong("TIFF", error))?;
+    Ok((checked_size(width.into(), height.into())?, 16))
 }
 
 /// Samples a pixel of an image of a kind that is read.

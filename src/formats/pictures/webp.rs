@@ -6,7 +6,7 @@ use image::codecs::webp::{WebPDecoder, WebPEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, Limits};
 
 use super::encoded::{Alpha, from_codes, to_bytes};
-use super::{MOST_PIXELS, Notes, PictureFormat, checked_size, whole, wrong};
+use super::{MOST_PIXELS, Notes, Opened, PictureFormat, checked_size, whole, wrong};
 use crate::formats::whole::{Failure, Sink};
 use crate::view::picture::Picture;
 
@@ -14,8 +14,13 @@ use crate::view::picture::Picture;
 const LONGEST_SIDE: usize = 16_384;
 
 /// Read and written.
-pub(crate) const FORMAT: PictureFormat =
-    PictureFormat { name: "WebP", extensions: &["webp"], read: Some(read), write: Some(write) };
+pub(crate) const FORMAT: PictureFormat = PictureFormat {
+    name: "WebP",
+    extensions: &["webp"],
+    read: Some(read),
+    size: Some(size),
+    write: Some(write),
+};
 
 /// Writes color and alpha in eight bits, as a PNG has them; notes are left out.
 pub fn write(sink: &mut dyn Sink, picture: &Picture, _: &Notes) -> Result<(), Failure> {
@@ -35,6 +40,13 @@ pub fn write(sink: &mut dyn Sink, picture: &Picture, _: &Notes) -> Result<(), Fa
         ExtendedColorType::Rgba8,
     )?;
     Ok(sink.write_all(&bytes)?)
+}
+
+/// Eight-bit codes, once more as they are decoded and with an alpha that the file lacks.
+fn size(file: &mut dyn Opened) -> Result<([usize; 2], u64), String> {
+    let decoder = WebPDecoder::new(file).map_err(|error| wrong("WebP", error))?;
+    let (width, height) = decoder.dimensions();
+    Ok((checked_size(width.into(), height.into())?, 12))
 }
 
 /// Reads a picture, with losses or without; of an animation the first frame.

@@ -4,9 +4,11 @@
 //! of the picture becomes the same parallelogram, the [`Footprint`], wherever on a face it lies. A lookup is the
 //! average of the texture over that parallelogram; the filters differ in how exactly they take it.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec4};
+use hecs::World;
 
 use crate::components::{TextureFilter, Textured, Wrap};
 use crate::view::picture::Picture;
@@ -96,6 +98,20 @@ impl MappedTexture {
         let uv = DVec2::new(finite(uv.x), finite(uv.y));
         if self.wrap == Wrap::Repeat { uv - uv.floor() } else { uv }
     }
+}
+
+/// Bytes that all levels of the textures of a world take, each texture once, whoever it is laid on.
+#[must_use]
+pub fn bytes_of(world: &World) -> u64 {
+    let mut each_once: HashMap<_, _> =
+        world.query::<&MappedTexture>().iter().map(counted).collect();
+    each_once.extend(world.query::<&TexturedBy>().iter().map(|by| counted(&by.texture)));
+    each_once.values().sum()
+}
+
+/// What tells a texture's levels from those of others, and their bytes.
+fn counted(texture: &MappedTexture) -> (*const MipLevel, u64) {
+    (texture.levels.as_ptr(), texture.bytes())
 }
 
 /// `textured`, resolved: the picture itself and the corners that it is laid between.
