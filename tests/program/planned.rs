@@ -144,7 +144,6 @@ fn the_plan_of_a_large_volume_is_as_near() {
 
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "takes 2 GB and a minute"]
 fn the_plan_of_a_volume_of_512_voxels_a_side_is_as_near() {
     assert_near_for_a_cube_of(512);
 }
