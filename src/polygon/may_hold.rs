@@ -162,7 +162,7 @@ fn classified(world: &World, volume: &SceneVolume) -> Option<(Vec<bool>, Looked)
         .step_by(may.len().div_ceil(LOOKED_AT).max(1))
         .map(|at| {
             let mut brick = [0.0; bricks::VOXELS];
-            let seen = opacities.fill(place(*at), &mut brick);
+            let seen = opacities.fill(&ranges, place(*at), &mut brick);
             (seen, brick.iter().any(|alpha| *alpha > FAINT))
         })
         .collect();

@@ -21,8 +21,8 @@ struct Stored<T> {
     counts: [usize; 3],
     /// For each brick, x fastest: its place within its layer, or `EMPTY`.
     table: Vec<u32>,
-    /// The stored bricks of each layer of bricks in z; a voxel of a brick is at (z · 8 + y) · 8 + x.
-    layers: Vec<Vec<[T; VOXELS]>>,
+    /// The stored bricks of each layer of bricks in z, one after the other; a voxel of a brick is at (z · 8 + y) · 8 + x.
+    layers: Vec<Vec<T>>,
 }
 
 impl<T> Clone for Bricks<T> {
@@ -90,21 +90,22 @@ impl<T: Copy + Default + Send + Sync> Bricks<T> {
         let per_layer = counts[0] * counts[1];
         let mut table = vec![EMPTY; per_layer * counts[2]];
         let layer = |(z, table): (usize, &mut [u32])| {
-            let mut stored = Vec::new();
-            let mut brick = [T::default(); VOXELS];
-            for (at, entry) in table.iter_mut().enumerate() {
-                let place = BrickPlace::new([at % counts[0], at / counts[0], z], size);
-                if !may_hold(place) {
-                    continue;
+            let place = |at| BrickPlace::new([at % counts[0], at / counts[0], z], size);
+            let asked: Vec<_> = (0..table.len()).filter(|&at| may_hold(place(at))).collect();
+            // Made where they stay, among zeros that come from the system for nothing.
+            let (mut voxels, mut stored) = (vec![T::default(); asked.len() * VOXELS], 0);
+            for at in asked {
+                let made = &mut voxels.as_chunks_mut::<VOXELS>().0[stored];
+                if make(place(at), made) {
+                    table[at] = stored as u32;
+                    stored += 1;
+                } else {
+                    made.fill(T::default());
                 }
-                if make(place, &mut brick) {
-                    *entry = stored.len() as u32;
-                    stored.push(brick);
-                }
-                brick.fill(T::default());
             }
-            stored.shrink_to_fit();
-            stored
+            voxels.truncate(stored * VOXELS);
+            voxels.shrink_to_fit();
+            voxels
         };
         let layers = table.par_chunks_mut(per_layer).enumerate().map(layer).collect();
         Self(Arc::new(Stored { size, counts, table, layers }))
@@ -150,7 +151,7 @@ impl<T> Bricks<T> {
     pub fn brick(&self, [x, y, z]: [usize; 3]) -> Option<&[T; VOXELS]> {
         let stored = &*self.0;
         let entry = stored.table[(z * stored.counts[1] + y) * stored.counts[0] + x];
-        (entry != EMPTY).then(|| &stored.layers[z][entry as usize])
+        (entry != EMPTY).then(|| &stored.layers[z].as_chunks().0[entry as usize])
     }
 
     /// Every stored brick, in the order of the table.
@@ -165,8 +166,8 @@ impl<T> Bricks<T> {
     /// Bytes that the bricks and their table take.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        let bricks: usize = self.0.layers.iter().map(Vec::len).sum();
-        (bricks * VOXELS * size_of::<T>() + self.0.table.len() * 4) as u64
+        let voxels: usize = self.0.layers.iter().map(Vec::len).sum();
+        (voxels * size_of::<T>() + self.0.table.len() * 4) as u64
     }
 }
 

@@ -8,11 +8,13 @@ mod texel;
 
 use std::sync::Arc;
 
+use fearless_simd::{Level, dispatch};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::components::TexelKind;
 use crate::schedule::Product;
+use crate::volume::bricks::Bricks;
 pub use texel::{BRIGHT, FAINT, Texel};
 
 /// Cells along one edge of a brick.
@@ -32,8 +34,8 @@ pub struct Texels<T>(Arc<Stored<T>>);
 struct Stored<T> {
     counts: [usize; 3],
     table: Vec<u32>,
-    /// The stored bricks, and a last one of zeros that stands for all that are not stored.
-    bricks: Vec<[T; TEXELS]>,
+    /// The texels of the stored bricks, and of a last one of zeros that stands for all that are not stored.
+    texels: Vec<T>,
 }
 
 impl<T> Clone for Texels<T> {
@@ -48,16 +50,37 @@ impl<T> PartialEq for Texels<T> {
     }
 }
 
+/// What gel is made of.
+pub trait Fill: Sync {
+    /// Fills the 9³ texels of a brick, which come clear, with associated RGBA of the voxels from its first on; those outside
+    /// the grid, of `size` voxels, stay clear.
+    fn fill<T: Texel>(&self, size: [usize; 3], brick: [usize; 3], texels: &mut [T; TEXELS]);
+}
+
+/// Row by row: of 9 voxels from voxel `first` on along x, which come clear. It is asked for voxels inside the grid alone; the
+/// row is as short as the grid ends.
+impl<F: Fn([usize; 3], &mut [Vec4]) + Sync> Fill for F {
+    fn fill<T: Texel>(&self, size: [usize; 3], brick: [usize; 3], texels: &mut [T; TEXELS]) {
+        let first = brick.map(|b| b * CELLS);
+        let extent: [usize; 3] = std::array::from_fn(|axis| ROW.min(size[axis] - first[axis]));
+        let mut row = [Vec4::ZERO; ROW];
+        for (z, y) in (0..extent[2]).flat_map(|z| (0..extent[1]).map(move |y| (z, y))) {
+            row.fill(Vec4::ZERO);
+            self([first[0], first[1] + y, first[2] + z], &mut row[..extent[0]]);
+            let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
+            made.iter_mut().zip(&row).for_each(|(texel, channels)| *texel = T::store(*channels));
+        }
+    }
+}
+
 impl<T: Texel> Texels<T> {
     /// Makes the gel of a grid of `size` voxels.
     ///
-    /// `holds(brick)` says whether a brick is stored (whether one of the 9³ voxels from its first on is interesting);
-    /// `fill(first, row)` gives associated RGBA of a row of 9 voxels from voxel `first` on along x. It is asked for
-    /// voxels inside the grid alone; `row` is as short as the grid ends.
+    /// `holds(brick)` says whether a brick is stored (whether one of the 9³ voxels from its first on is interesting).
     pub fn make(
         size: [usize; 3],
         holds: impl Fn([usize; 3]) -> bool + Sync,
-        fill: impl Fn([usize; 3], &mut [Vec4]) + Sync,
+        made_of: impl Fill,
     ) -> Self {
         let counts = size.map(|n| n.div_ceil(CELLS));
         let [nx, ny, nz] = counts;
@@ -71,10 +94,13 @@ impl<T: Texel> Texels<T> {
             *entry = stored.len() as u32;
             stored.push(place(at));
         }
-        let filled = stored.par_iter().map(|&brick| fill_brick(size, brick, &fill));
-        let zeros = rayon::iter::once([T::default(); TEXELS]);
-        let bricks = filled.chain(zeros).collect();
-        Self(Arc::new(Stored { counts, table, bricks }))
+        // Filled where they stay: zeros come from the system for nothing, and a copy of what is made would cost as much again.
+        let (mut texels, level) = (vec![T::default(); (stored.len() + 1) * TEXELS], Level::new());
+        let places = texels.as_chunks_mut::<TEXELS>().0.par_iter_mut().zip(&stored);
+        places.for_each(|(texels, &brick)| {
+            dispatch!(level, _simd => made_of.fill(size, brick, texels));
+        });
+        Self(Arc::new(Stored { counts, table, texels }))
     }
 
     /// Bricks on each axis.
@@ -99,21 +125,22 @@ impl<T: Texel> Texels<T> {
     /// The texels of the stored bricks, x fastest.
     #[must_use]
     pub fn bricks(&self) -> &[[T; TEXELS]] {
-        &self.0.bricks[..self.0.bricks.len() - 1]
+        let bricks = self.0.bricks();
+        &bricks[..bricks.len() - 1]
     }
 
     /// The arrays behind the pointers, for rays.
     #[must_use]
     pub fn slices(&self) -> TexelSlices<'_, T> {
-        let Stored { counts, table, bricks } = &*self.0;
-        TexelSlices { counts: *counts, table, bricks }
+        let Stored { counts, table, .. } = &*self.0;
+        TexelSlices { counts: *counts, table, bricks: self.0.bricks() }
     }
 
     /// Which cells of stored brick `brick` are interesting: bit `8 y + x` of word `z`, set if one of its eight texels
     /// has an opacity above zero. Level 0 of the paper's pyramid.
     #[must_use]
     pub(crate) fn interesting_cells(&self, brick: u32) -> [u64; CELLS] {
-        let texels = &self.0.bricks[brick as usize];
+        let texels = &self.0.bricks()[brick as usize];
         let opaque = |z: usize, y: usize| {
             let row = &texels[(z * ROW + y) * ROW..][..ROW];
             row.iter()
@@ -136,7 +163,14 @@ impl<T: Texel> Texels<T> {
     /// Bytes that the bricks and their table take.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        (self.0.bricks.len() * size_of::<[T; TEXELS]>() + self.0.table.len() * 4) as u64
+        (self.0.texels.len() * size_of::<T>() + self.0.table.len() * 4) as u64
+    }
+}
+
+impl<T> Stored<T> {
+    /// The stored bricks, and the one of zeros.
+    fn bricks(&self) -> &[[T; TEXELS]] {
+        self.texels.as_chunks().0
     }
 }
 
@@ -199,26 +233,6 @@ impl<'a, T: Texel> TexelSlices<'a, T> {
     }
 }
 
-fn fill_brick<T: Texel>(
-    size: [usize; 3],
-    brick: [usize; 3],
-    fill: &impl Fn([usize; 3], &mut [Vec4]),
-) -> [T; TEXELS] {
-    let first = brick.map(|b| b * CELLS);
-    let extent: [usize; 3] = std::array::from_fn(|axis| ROW.min(size[axis] - first[axis]));
-    let mut texels = [T::default(); TEXELS];
-    let mut row = [Vec4::ZERO; ROW];
-    for z in 0..extent[2] {
-        for y in 0..extent[1] {
-            row.fill(Vec4::ZERO);
-            fill([first[0], first[1] + y, first[2] + z], &mut row[..extent[0]]);
-            let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
-            made.iter_mut().zip(&row).for_each(|(texel, channels)| *texel = T::store(*channels));
-        }
-    }
-    texels
-}
-
 /// The coloured, semi-transparent gel that rays meet: c_T · α_C and α_C (equation 4).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gel {
@@ -226,6 +240,8 @@ pub struct Gel {
     pub lit: GelBricks,
     /// The ambient part of the colour (and the opacity again), where a depth cue is stated.
     pub ambient: Option<GelBricks>,
+    /// The opacities that it is made of, if they are kept: other light on the same makes no other cells interesting.
+    pub opacity: Option<Bricks<f32>>,
 }
 
 impl Product for Gel {}
@@ -257,12 +273,12 @@ impl GelBricks {
         kind: TexelKind,
         size: [usize; 3],
         holds: impl Fn([usize; 3]) -> bool + Sync,
-        fill: impl Fn([usize; 3], &mut [Vec4]) + Sync,
+        made_of: impl Fill,
     ) -> Self {
         match kind {
-            TexelKind::Auto | TexelKind::F32 => Self::F32(Texels::make(size, holds, fill)),
-            TexelKind::U16 => Self::U16(Texels::make(size, holds, fill)),
-            TexelKind::U8 => Self::U8(Texels::make(size, holds, fill)),
+            TexelKind::Auto | TexelKind::F32 => Self::F32(Texels::make(size, holds, made_of)),
+            TexelKind::U16 => Self::U16(Texels::make(size, holds, made_of)),
+            TexelKind::U8 => Self::U8(Texels::make(size, holds, made_of)),
         }
     }
 

@@ -6,6 +6,7 @@
 
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
+use super::bricks::EDGE;
 use super::grid::{Grid, Scalar, Scalars};
 use crate::with_scalars;
 
@@ -103,6 +104,66 @@ impl Gradients {
                 self.differences(values, first, row, |d| (*matrix * Vec3::from(d)).to_array());
             }
         }
+    }
+
+    /// The gradients of a brick's row, axis by axis: of its `n` voxels from `first` on, zeros after them; to the last bit those
+    /// of [`row`](Self::row). Panics where the row leaves the grid.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    pub(crate) fn side_by_side<T: Scalar>(
+        &self,
+        values: &[T],
+        first: [usize; 3],
+        n: usize,
+    ) -> [[f32; EDGE]; 3] {
+        let ([x, y, z], [nx, ny, nz]) = (first, self.size);
+        let mut made = [[0.0; EDGE]; 3];
+        if x == 0 || x + EDGE >= nx {
+            let mut row = [[0.0; 3]; EDGE];
+            self.row(values, first, &mut row[..n]);
+            for (at, gradient) in row.into_iter().enumerate() {
+                made.iter_mut().zip(gradient).for_each(|(made, part)| made[at] = part);
+            }
+            return made;
+        }
+        let eight = |x: usize, y: usize, z: usize| {
+            values[(z * ny + y) * nx + x..].first_chunk::<EDGE>().expect("the row is inside")
+        };
+        let ((y0, y1, per_y), (z0, z1, per_z)) = (neighbours(y, ny), neighbours(z, nz));
+        let pairs = [
+            (eight(x + 1, y, z), eight(x - 1, y, z), 0.5),
+            (eight(x, y1, z), eight(x, y0, z), per_y),
+            (eight(x, y, z1), eight(x, y, z0), per_z),
+        ];
+        for (made, (high, low, per)) in made.iter_mut().zip(pairs) {
+            for at in 0..EDGE {
+                made[at] = high[at].minus(low[at]) * per;
+            }
+        }
+        match &self.to_world {
+            ToWorld::Scale(scale) => {
+                for (made, scale) in made.iter_mut().zip(scale) {
+                    made.iter_mut().for_each(|made| *made *= scale);
+                }
+            }
+            ToWorld::Matrix(matrix) => {
+                let [x, y, z] = made;
+                for (axis, made) in made.iter_mut().enumerate() {
+                    let [from_x, from_y, from_z] = matrix.row(axis).to_array();
+                    for at in 0..EDGE {
+                        made[at] = from_x * x[at] + from_y * y[at] + from_z * z[at];
+                    }
+                }
+            }
+        }
+        let [x, y, z] = &mut made;
+        for at in 0..EDGE {
+            // As in `finite`.
+            let is_finite = x[at] * 0.0 + y[at] * 0.0 + z[at] * 0.0 == 0.0;
+            let kept = |part: f32| if is_finite { part } else { 0.0 };
+            (x[at], y[at], z[at]) = (kept(x[at]), kept(y[at]), kept(z[at]));
+        }
+        made
     }
 
     /// The differences per voxel of a row, each passed through `to_world`.

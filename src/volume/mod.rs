@@ -12,6 +12,7 @@ pub mod gel;
 pub mod gradients;
 pub mod grid;
 mod hull;
+pub(crate) mod interest;
 pub mod labels;
 pub mod layer;
 pub mod opacities;

@@ -1,5 +1,7 @@
 //! The opacities of a volume's voxels, brick by brick: classified, weakened where a clip cuts, and masked by labels.
 
+use fearless_simd::{Level, dispatch};
+
 use crate::components::{Classify, Clip, Material};
 use crate::volume::bricks::{BrickPlace, EDGE, VOXELS};
 use crate::volume::classification::Classifier;
@@ -19,6 +21,7 @@ pub(crate) struct Opacities<'a> {
     gradients: Gradients,
     cut: Option<Cut>,
     tint: Option<&'a Tint>,
+    level: Level,
 }
 
 impl<'a> Opacities<'a> {
@@ -38,20 +41,29 @@ impl<'a> Opacities<'a> {
         }
         let classifier = Classifier::new(&stated, &Material::default(), unit);
         let cut = clip.map(|clip| Cut::new(clip, grid));
-        Self { scalars, grid, classifier, gradients: Gradients::new(grid), cut, tint }
+        let (gradients, level) = (Gradients::new(grid), Level::new());
+        Self { scalars, grid, classifier, gradients, cut, tint, level }
     }
 
     /// Whether any of a brick may be seen, by the ranges of its scalars and by the cut. Where this is denied, all is clear.
     #[must_use]
     pub fn may_hold(&self, ranges: &Ranges, place: BrickPlace) -> bool {
         let range = ranges.around(place.brick);
-        let steepest = self.gradients.at_most(range.spread, place.first, place.extent);
-        self.classifier.may_show(range, steepest) && self.left(place) != Left::Nothing
+        self.classifier.may_show(range, self.steepest(ranges, place))
+            && self.left(place) != Left::Nothing
+    }
+
+    /// No gradient in a brick is longer.
+    fn steepest(&self, ranges: &Ranges, place: BrickPlace) -> f64 {
+        self.gradients.at_most(ranges.around(place.brick).spread, place.first, place.extent)
     }
 
     /// Fills a brick, which comes zeroed, with α; whether any of it is seen.
-    pub fn fill(&self, place: BrickPlace, brick: &mut [f32; VOXELS]) -> bool {
-        with_scalars!(self.scalars, values => self.classify(values, place, brick));
+    pub fn fill(&self, ranges: &Ranges, place: BrickPlace, brick: &mut [f32; VOXELS]) -> bool {
+        let steepest = self.steepest(ranges, place);
+        with_scalars!(self.scalars, values => {
+            dispatch!(self.level, _simd => self.classify(values, (place, steepest), brick));
+        });
         if let (Left::Part, Some(cut)) = (self.left(place), &self.cut) {
             for (at, voxel) in place.voxels() {
                 if brick[at] > 0.0 {
@@ -71,20 +83,35 @@ impl<'a> Opacities<'a> {
         self.cut.as_ref().map_or(Left::Whole, |cut| cut.left(place.first, place.extent))
     }
 
-    fn classify<T: Scalar>(&self, values: &[T], place: BrickPlace, brick: &mut [f32; VOXELS]) {
-        let [nx, ny, _] = self.grid.size;
+    /// Fills a brick, which comes zeroed, with what is classified alone.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn classify<T: Scalar>(
+        &self,
+        values: &[T],
+        (place, steepest): (BrickPlace, f64),
+        brick: &mut [f32; VOXELS],
+    ) {
         let ([x, y, z], [n, rows, slices]) = (place.first, place.extent);
-        // Without gradients, zeros: they are not looked at.
-        let mut row = [[0.0; 3]; EDGE];
         for (dz, dy) in (0..slices).flat_map(|dz| (0..rows).map(move |dy| (dz, dy))) {
+            let first = [x, y + dy, z + dz];
+            // Behind the end of the grid as its last voxel, which is left out in the end.
+            let own = &values[self.grid.offset(first)..][..n];
+            let row: [f32; EDGE] = std::array::from_fn(|at| own[at.min(n - 1)].value());
+            let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
+            for value in row {
+                low = if value < low { value } else { low };
+                high = if value > high { value } else { high };
+            }
+            if self.classifier.show(&[low], &[high], &[steepest]) == [0] {
+                continue;
+            }
+            let mut gradients = [[0.0; EDGE]; 3];
             if self.classifier.is_of_gradient() {
-                self.gradients.row(values, [x, y + dy, z + dz], &mut row[..n]);
+                gradients = self.gradients.side_by_side(values, first, n);
             }
-            let values = &values[((z + dz) * ny + y + dy) * nx + x..][..n];
-            let alphas = &mut brick[(dz * EDGE + dy) * EDGE..][..n];
-            for ((alpha, value), gradient) in alphas.iter_mut().zip(values).zip(&row) {
-                *alpha = self.classifier.opacity(value.value(), *gradient);
-            }
+            let alphas = self.classifier.opacities(&row, &gradients);
+            brick[(dz * EDGE + dy) * EDGE..][..n].copy_from_slice(&alphas[..n]);
         }
     }
 }

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use crate::schedule::Product;
 use crate::volume::gel::{CELLS, Texel, Texels};
+use crate::volume::interest::Interest;
 pub use blocks::BLOCK;
 use blocks::FullBlocks;
 use near::Near;
@@ -45,11 +46,16 @@ impl Pyramid {
     /// The pyramid of some gel.
     #[must_use]
     pub fn of<T: Texel>(gel: &Texels<T>) -> Self {
-        let cells: Vec<_> = (0..gel.bricks().len() as u32)
-            .into_par_iter()
-            .map(|brick| gel.interesting_cells(brick))
-            .collect();
-        let full = FullBlocks::of(gel.counts(), gel.table(), &cells);
+        let cells = (0..gel.bricks().len() as u32).into_par_iter();
+        let cells = cells.map(|brick| gel.interesting_cells(brick)).collect();
+        Self::of_layer(Interest { counts: gel.counts(), table: gel.table().to_vec(), cells })
+    }
+
+    /// The pyramid of the gel that is made of a layer.
+    #[must_use]
+    pub(crate) fn of_layer(interest: Interest) -> Self {
+        let Interest { counts, table, cells } = interest;
+        let full = FullBlocks::of(counts, &table, &cells);
         let (blocks, table, near) = (full.counts, Vec::new(), None);
         Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
     }

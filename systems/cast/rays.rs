@@ -136,7 +136,7 @@ impl<'a> SharedView<'a> {
         placed: &'a Placed,
         dust: Option<&'a Dust>,
     ) -> Result<Option<AnyMedium<'a>>, Error> {
-        let Gel { lit, ambient } = match &placed.content {
+        let Gel { lit, ambient, .. } = match &placed.content {
             Sampled::Gel(gel) => gel,
             Sampled::Values(stated) => {
                 let values = Values::new(stated, (&placed.grid, placed.unit), self.steps(placed));

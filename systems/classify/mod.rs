@@ -90,7 +90,7 @@ impl Inputs {
             Opacities::new((scalars, grid), (classify, unit.0), clip.as_ref(), tint.as_ref());
         let may_hold = |place: BrickPlace| opacities.may_hold(ranges, place);
         let voxels = Bricks::make_where(grid.size, may_hold, |place, brick| {
-            watch.check().is_ok() && opacities.fill(place, brick)
+            watch.check().is_ok() && opacities.fill(ranges, place, brick)
         });
         Opacity { voxels, nan_voxels: ranges.nan_voxels() }
     }

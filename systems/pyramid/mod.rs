@@ -3,15 +3,17 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{Classify, Clip, Filter, Material, OpacityUnit, Skip};
+use crate::components::{Classify, Clip, Filter, Material, OpacityUnit, Skip, TexelKind};
 use crate::error::Error;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
+use crate::volume::bricks::Bricks;
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::Cut;
 use crate::volume::coefficients::Coefficients;
 use crate::volume::gel::{CELLS, Gel, GelBricks};
 use crate::volume::grid::{Grid, Scalars};
+use crate::volume::interest::Interest;
 use crate::volume::pyramid::Pyramid;
 use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, stepped, with_content};
@@ -25,6 +27,8 @@ pub(crate) struct StackPyramid;
 #[derive(PartialEq)]
 enum Inputs {
     Gel(GelBricks),
+    /// Gel that is made of these opacities, in numbers of this kind.
+    Layer(Bricks<f32>, TexelKind),
     Values(Box<Values>),
 }
 
@@ -55,8 +59,11 @@ impl System for StackPyramid {
         for (entity, gel) in &mut world.query::<(Entity, &Gel)>() {
             if values.iter().all(|volume| volume.entity != entity) {
                 // The ambient gel has the same opacities, so one pyramid serves both.
-                let gel = Inputs::Gel(gel.lit.clone());
-                out.derive(entity, gel, |inputs| Ok(inputs.pyramid(watch)))?;
+                let inputs = match &gel.opacity {
+                    Some(opacity) => Inputs::Layer(opacity.clone(), gel.lit.kind()),
+                    None => Inputs::Gel(gel.lit.clone()),
+                };
+                out.derive(entity, inputs, |inputs| Ok(inputs.pyramid(watch)))?;
             }
         }
         for SceneVolume { entity, grid, unit, .. } in values {
@@ -102,6 +109,7 @@ impl System for StackPyramid {
 impl Inputs {
     fn pyramid(&self, watch: &Watch) -> Pyramid {
         match self {
+            Self::Layer(opacity, kind) => Pyramid::of_layer(Interest::of(opacity, *kind)),
             Self::Gel(gel) => with_texels!(gel, texels => Pyramid::of(texels)),
             Self::Values(values) => values.pyramid(watch),
         }

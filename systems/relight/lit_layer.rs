@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use crate::components::TexelKind;
 use crate::light::strength::VoxelStrength;
 use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
-use crate::volume::gel::{BRIGHT, FAINT, GelBricks};
+use crate::volume::gel::{BRIGHT, FAINT, Fill, GelBricks, ROW, TEXELS, Texel};
+use crate::volume::interest::Interest;
 
 /// Colours of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
@@ -23,17 +24,11 @@ impl LitLayer<'_> {
     /// The associated gel: `c_T · α` and α. `Auto` is decided by what there is.
     #[must_use]
     pub fn gel(&self, kind: TexelKind) -> GelBricks {
-        let fill = |[x, y, z]: [usize; 3], row: &mut [Vec4]| {
-            let brick = [x / EDGE, y / EDGE, z / EDGE];
-            let within = (z % EDGE * EDGE + y % EDGE) * EDGE;
-            let (own, next) = row.split_at_mut(row.len().min(EDGE));
-            self.fill(brick, within, own);
-            if !next.is_empty() {
-                self.fill([brick[0] + 1, brick[1], brick[2]], within, next);
-            }
-        };
         let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
-        GelBricks::make(kind, self.opacity.size(), |brick| self.holds(brick), fill)
+        let interest = Interest::of(self.opacity, kind);
+        let [nx, ny, _] = interest.counts;
+        let holds = |[x, y, z]: [usize; 3]| interest.holds((z * ny + y) * nx + x);
+        GelBricks::make(kind, self.opacity.size(), holds, self)
     }
 
     /// 16-bit texels where their steps are small against the gel and none of its colours is above 1; else 32-bit ones.
@@ -52,47 +47,58 @@ impl LitLayer<'_> {
         if opaque && !bright() { TexelKind::U16 } else { TexelKind::F32 }
     }
 
-    /// Fills part of a row from the voxels of `brick` at `within` on.
-    fn fill(&self, brick: [usize; 3], within: usize, row: &mut [Vec4]) {
+    /// Fills the texels from the first on that are of some brick's voxels: of `extent` of its first ones.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn fill_from<T: Texel>(&self, brick: [usize; 3], extent: [usize; 3], texels: &mut [T]) {
         let Some(opacity) = self.opacity.brick(brick) else { return };
-        let opacity = &opacity[within..][..row.len()];
-        if opacity.iter().all(|alpha| *alpha <= 0.0) {
-            return;
-        }
-        let mut colors = [Vec3::ZERO; EDGE];
-        if let Some(base) = self.base.brick(brick) {
-            for (color, base) in colors.iter_mut().zip(&base[within..][..row.len()]) {
-                *color = Vec3::from(*base);
+        let base = self.base.brick(brick);
+        for (z, y) in (0..extent[2]).flat_map(|z| (0..extent[1]).map(move |y| (z, y))) {
+            let within = (z * EDGE + y) * EDGE;
+            let opacity = row_of(opacity, within);
+            let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
+            if opacity[..made.len()].iter().all(|alpha| *alpha <= 0.0) {
+                continue;
             }
-        }
-        for (light, strength) in &self.shadowed {
-            let Some(light) = light.brick(brick) else { continue };
-            let light = &light[within..][..row.len()];
-            let beta = betas(*strength, brick, within);
-            for ((color, light), beta) in colors.iter_mut().zip(light).zip(beta) {
-                *color += Vec3::from(*light) * beta;
+            let mut colors = base.map_or([[0.0; 3]; EDGE], |base| *row_of(base, within));
+            for (light, strength) in &self.shadowed {
+                let Some(light) = light.brick(brick) else { continue };
+                let betas = betas(*strength, brick, within);
+                for ((color, light), beta) in
+                    colors.iter_mut().zip(row_of(light, within)).zip(betas)
+                {
+                    *color = (Vec3::from(*color) + Vec3::from(*light) * beta).to_array();
+                }
             }
-        }
-        for ((texel, color), alpha) in row.iter_mut().zip(colors).zip(opacity) {
-            *texel = (color * *alpha).extend(*alpha);
+            for ((texel, [r, g, b]), &a) in made.iter_mut().zip(colors).zip(opacity) {
+                *texel = T::store(Vec4::new(r * a, g * a, b * a, a));
+            }
         }
     }
+}
 
-    /// Whether one of the 9³ voxels from the brick's first on is interesting: one of its own, or of the first plane, line
-    /// or voxel of a brick after it.
-    fn holds(&self, brick: [usize; 3]) -> bool {
+impl Fill for &LitLayer<'_> {
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn fill<T: Texel>(&self, _: [usize; 3], brick: [usize; 3], texels: &mut [T; TEXELS]) {
+        // Its own voxels, then the first plane, line or voxel of each brick after it; what a brick has outside the grid is clear.
         let counts = self.opacity.counts();
-        (0..8_usize).any(|corner| {
+        for corner in 0..8_usize {
             let after: [usize; 3] = std::array::from_fn(|axis| corner >> axis & 1);
-            let at: [usize; 3] = std::array::from_fn(|axis| brick[axis] + after[axis]);
-            let inside = (0..3).all(|axis| at[axis] < counts[axis]);
-            let stored = if inside { self.opacity.brick(at) } else { None };
-            let Some(alpha) = stored else { return false };
-            let [ex, ey, ez] = after.map(|after| if after == 1 { 1 } else { EDGE });
-            let mut rows = (0..ez).flat_map(|z| (0..ey).map(move |y| (z * EDGE + y) * EDGE));
-            rows.any(|row| alpha[row..][..ex].iter().any(|alpha| *alpha > 0.0))
-        })
+            let from: [usize; 3] = std::array::from_fn(|axis| brick[axis] + after[axis]);
+            if (0..3).all(|axis| from[axis] < counts[axis]) {
+                let extent = after.map(|after| if after == 1 { 1 } else { EDGE });
+                let [x, y, z] = after.map(|after| after * EDGE);
+                self.fill_from(from, extent, &mut texels[(z * ROW + y) * ROW + x..]);
+            }
+        }
     }
+}
+
+/// The row of a brick's voxels that begins with the one at `within`.
+#[inline]
+fn row_of<T>(brick: &[T; VOXELS], within: usize) -> &[T; EDGE] {
+    &brick.as_chunks().0[within / EDGE]
 }
 
 /// The greatest channel of a brick's colours, at least 0.
@@ -183,13 +189,15 @@ mod tests {
         let opacity = opacity();
         let base = colors(&opacity, [1.0; 3]);
         let lit_layer = LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new() };
+        let GelBricks::F32(gel) = lit_layer.gel(TexelKind::F32) else { panic!("as asked for") };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {
                 let voxel: [usize; 3] = std::array::from_fn(|a| brick[a] * CELLS + step[a]);
                 (0..3).all(|a| voxel[a] < SIZE[a]) && alpha(voxel) > 0.0
             });
-            assert_eq!(lit_layer.holds(brick), expected, "{brick:?}");
+            let stored = gel.table()[(brick[2] * 3 + brick[1]) * 3 + brick[0]] != EMPTY;
+            assert_eq!(stored, expected, "{brick:?}");
             held += usize::from(expected);
         }
         assert!((1..18).contains(&held));

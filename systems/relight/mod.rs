@@ -142,7 +142,7 @@ impl Inputs {
                 let kind =
                     if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
                 let lit = GelBricks::make(kind, grid.size, holds, fill);
-                Ok(Gel { lit, ambient: None })
+                Ok(Gel { lit, ambient: None, opacity: None })
             }
             Unlit::Layer(opacity, colors) => {
                 let strengths = || self.strengths.iter().flatten();
@@ -162,7 +162,7 @@ impl Inputs {
                 let ambient = colors.ambient.as_ref().map(|ambient| {
                     LitLayer { opacity, base: ambient, shadowed: Vec::new() }.gel(texel)
                 });
-                Ok(Gel { lit, ambient })
+                Ok(Gel { lit, ambient, opacity: Some(opacity.clone()) })
             }
         }
     }

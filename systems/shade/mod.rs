@@ -1,6 +1,9 @@
 //! `shade`: what every interesting voxel sends towards the observer, light by light (algorithm §3, Levoy 1988).
 
-use glam::Vec3;
+mod lit_row;
+
+use fearless_simd::{Level, dispatch};
+use glam::Vec4;
 use hecs::{Entity, World};
 
 use crate::components::{CastsShadow, Classify, Clip, Light, Material, OpacityUnit, Reconstruct};
@@ -9,15 +12,16 @@ use crate::light::shading::{Lamp, Lamps, Reflectance, lamps};
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
-use crate::volume::bricks::{Bricks, EDGE};
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::Cut;
-use crate::volume::gradients::{Gradients, normal};
+use crate::volume::gradients::Gradients;
 use crate::volume::grid::{Grid, Scalar, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::{LitColors, Opacity};
 use crate::volume::scene_volumes::{Content, with_content};
 use crate::with_scalars;
+use lit_row::{Lighting, Row};
 
 /// Voxels under a cut that are shaded by its normal alone: those between which the opacity rises, and the next.
 const CUT_DEEP: f64 = 1.5;
@@ -109,10 +113,7 @@ impl Inputs {
         let classifier = Classifier::new(&self.classify, &self.material, self.unit.0);
         let how = Reflectance::from(&self.material);
         let colors = |lamps: &[&Lamp], ambient: f32| {
-            self.per_voxel(&classifier, watch, |color, normal| {
-                let reflected = lamps.iter().map(|lamp| lamp.reflected(color, normal, &how));
-                color * ambient + reflected.sum::<Vec3>()
-            })
+            self.per_voxel(&classifier, watch, &Lighting { ambient, lamps, how })
         };
         let plain: Vec<_> = self.lamps.plain.iter().collect();
         LitColors {
@@ -127,44 +128,84 @@ impl Inputs {
         &self,
         classifier: &Classifier,
         watch: &Watch,
-        light: impl Fn(Vec3, Vec3) -> Vec3 + Sync + Send,
+        lighting: &Lighting<'_>,
     ) -> Bricks<[f32; 3]> {
-        let [nx, ny, _] = self.grid.size;
-        let gradients = Gradients::new(&self.grid);
-        let cut = self.clip.as_ref().map(|clip| Cut::new(clip, &self.grid));
-        let sections = |normal: Vec3, voxel: [usize; 3]| {
-            let section = cut.as_ref().map(|cut| cut.under(voxel));
-            section.map_or(normal, |section| section.turned(normal, CUT_DEEP))
+        let level = Level::new();
+        let shading = Shading {
+            inputs: self,
+            classifier,
+            gradients: Gradients::new(&self.grid),
+            cut: self.clip.as_ref().map(|clip| Cut::new(clip, &self.grid)),
         };
         with_scalars!(&self.scalars, values => self.opacity.voxels.map(|place, alpha, made| {
-            if watch.check().is_err() {
-                return;
-            }
-            let ([x, y, z], n) = (place.first, place.extent[0]);
-            let mut slopes = [[0.0; 3]; EDGE];
-            for (row, alpha) in alpha.chunks_exact(EDGE).enumerate() {
-                if alpha.iter().all(|alpha| *alpha <= 0.0) {
-                    continue;
-                }
-                let [y, z] = [y + row % EDGE, z + row / EDGE];
-                gradients.row(values, [x, y, z], &mut slopes[..n]);
-                let first = (z * ny + y) * nx + x;
-                let values = &values[first..][..n];
-                let made = made[row * EDGE..][..n].iter_mut().zip(alpha);
-                for (at, ((made, _), (value, slope))) in made
-                    .zip(values.iter().zip(&slopes))
-                    .enumerate()
-                    .filter(|(_, ((_, alpha), _))| **alpha > 0.0)
-                {
-                    let mut color = classifier.color(value.value(), *slope);
-                    if let Some(tint) = &self.tint {
-                        let tint = tint.colors[first + at];
-                        color = color.lerp(tint.truncate(), tint.w);
-                    }
-                    let normal = sections(normal(*slope), [x + at, y, z]);
-                    *made = light(color, normal).to_array();
-                }
+            if watch.check().is_ok() {
+                dispatch!(level, _simd => shading.brick(values, (place, alpha), made, lighting));
             }
         }))
+    }
+}
+
+/// What a brick is shaded by.
+struct Shading<'a> {
+    inputs: &'a Inputs,
+    classifier: &'a Classifier,
+    gradients: Gradients,
+    cut: Option<Cut>,
+}
+
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+impl Shading<'_> {
+    /// Fills the colors of a brick, which come zeroed.
+    #[inline(always)]
+    fn brick<T: Scalar>(
+        &self,
+        values: &[T],
+        (place, alpha): (BrickPlace, &[f32; VOXELS]),
+        made: &mut [[f32; 3]; VOXELS],
+        lighting: &Lighting<'_>,
+    ) {
+        let ([x, y, z], n) = (place.first, place.extent[0]);
+        let rows = alpha.as_chunks::<EDGE>().0.iter().zip(made.as_chunks_mut::<EDGE>().0);
+        for (row, (alpha, made)) in rows.enumerate() {
+            if alpha.iter().all(|alpha| *alpha <= 0.0) {
+                continue;
+            }
+            let first = [x, y + row % EDGE, z + row / EDGE];
+            let gradients = self.gradients.side_by_side(values, first, n);
+            let mut normals = lit_row::normals(&gradients);
+            if let Some(cut) = &self.cut {
+                for at in 0..n {
+                    let section = cut.under([x + at, first[1], first[2]]);
+                    let normal = section.turned(lit_row::one(&normals, at), CUT_DEEP);
+                    lit_row::set(&mut normals, at, normal);
+                }
+            }
+            let from = self.inputs.grid.offset(first);
+            let colors = self.colors(&values[from..][..n], &gradients, from);
+            let lit = lighting.row(&colors, &normals);
+            for (at, (made, alpha)) in made.iter_mut().zip(alpha).enumerate() {
+                if *alpha > 0.0 {
+                    *made = lit_row::one(&lit, at).to_array();
+                }
+            }
+        }
+    }
+
+    /// c_p of the voxels of a row, tinted; `from` is the place of its first one.
+    #[inline(always)]
+    fn colors<T: Scalar>(&self, values: &[T], gradients: &Row, from: usize) -> Row {
+        let tint = self.inputs.tint.as_ref();
+        if let (Some(color), None) = (self.classifier.only_color(), tint) {
+            return lit_row::all(color);
+        }
+        let mut colors = [[0.0; EDGE]; 3];
+        for (at, value) in values.iter().enumerate() {
+            let gradient = lit_row::one(gradients, at).to_array();
+            let color = self.classifier.color(value.value(), gradient);
+            let tint = tint.map_or(Vec4::ZERO, |tint| tint.colors[from + at]);
+            let tinted = if tint.w == 0.0 { color } else { color.lerp(tint.truncate(), tint.w) };
+            lit_row::set(&mut colors, at, tinted);
+        }
+        colors
     }
 }

@@ -11,21 +11,21 @@ use crate::components::{Color, Contour, Form};
 pub struct Contours(Vec<Line>);
 
 #[derive(Debug, Clone, PartialEq)]
-struct Line {
+pub(super) struct Line {
     /// f_v.
-    value: f64,
+    pub value: f64,
     /// α_v.
-    opacity: f64,
+    pub opacity: f64,
     /// r² in world units.
-    squared_reach: f64,
-    form: Form,
+    pub squared_reach: f64,
+    pub form: Form,
     color: DVec3,
 }
 
 impl Line {
     /// Whether it has no thickness: it is where values cross it, and takes up no voxel.
     #[inline]
-    fn is_surface(&self) -> bool {
+    pub fn is_surface(&self) -> bool {
         self.squared_reach == 0.0
     }
 
@@ -60,6 +60,10 @@ pub struct SharpContour {
 }
 
 impl Contours {
+    pub(super) fn lines(&self) -> &[Line] {
+        &self.0
+    }
+
     /// Those without thickness.
     pub fn surfaces(&self) -> Vec<SharpContour> {
         let surface = |line: &Line| SharpContour {

@@ -15,6 +15,11 @@ impl<V: Copy + Add<Output = V> + Mul<f64, Output = V>> Curve<V> {
         Self(points)
     }
 
+    /// Its points.
+    pub fn points(&self) -> &[(f64, V)] {
+        &self.0
+    }
+
     /// The points that `place` lies between, and how far it is from the first to the second, 0..=1.
     ///
     /// Beyond an end both are that end. `None` without points or for a NaN.

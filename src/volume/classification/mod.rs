@@ -6,6 +6,7 @@ mod integral;
 mod mixture;
 mod numbers;
 mod regions;
+mod row;
 mod transfer;
 
 use glam::{DVec3, Vec3};
@@ -163,6 +164,13 @@ impl Classifier {
             How::Transfer(transfer) => transfer.is_of_gradient(),
             How::Mixture(_) => false,
         }
+    }
+
+    /// c_p of every voxel, where the classification states no color of its own.
+    #[must_use]
+    #[inline]
+    pub(crate) fn only_color(&self) -> Option<Vec3> {
+        (!self.colored).then_some(self.color)
     }
 
     /// c_p, linear, of a voxel of scalar `value` and world `gradient`.

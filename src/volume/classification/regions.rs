@@ -55,6 +55,11 @@ impl Regions {
         if contrast > 0.0 { alpha * (gg.sqrt() * self.unit / contrast).min(1.0) } else { 0.0 }
     }
 
+    /// The opacities between tissues, and u.
+    pub(super) fn curve(&self) -> (&Curve<f64>, f64) {
+        (&self.opacity, self.unit)
+    }
+
     /// The scalars at which a boundary may be seen, where the gradient is longer than 0.
     pub fn risen(&self) -> &Risen {
         &self.risen

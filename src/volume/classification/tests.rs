@@ -42,6 +42,29 @@ fn number() -> impl Strategy<Value = f32> {
 
 proptest! {
     #[test]
+    fn a_row_is_classified_as_each_of_its_voxels(
+        stated in [number(), number(), number(), number()],
+        values in [number(), number(), number(), number()],
+        gradient in [number(), number(), number()],
+        scale in -3_i32..=3,
+    ) {
+        let finite = gradient.map(|part| if part.is_finite() { part } else { 0.0 });
+        let row = [values[0], values[1], stated[0], stated[1], stated[0], values[2], values[3], stated[1]];
+        let mut gradients = [[0.0; 8]; 3];
+        for (axis, part) in finite.into_iter().enumerate() {
+            gradients[axis] = [part, part * 1e-3, part, 0.0, 0.0, part, part * 1e-6, part * 1e-3];
+        }
+        for classify in four_ways(stated[0], stated[1], stated[2], stated[3]) {
+            let classifier = Classifier::new(&classify, &Material::default(), 10.0_f64.powi(scale));
+            let made = classifier.opacities(&row, &gradients);
+            for (at, value) in row.into_iter().enumerate() {
+                let alone = classifier.opacity(value, gradients.map(|part| part[at]));
+                prop_assert_eq!(made[at].to_bits(), alone.to_bits(), "{} {:?}", value, classify);
+            }
+        }
+    }
+
+    #[test]
     fn opacity_is_a_fraction_and_color_finite_whatever_the_input(
         stated in [number(), number(), number(), number()],
         value in number(),

@@ -48,6 +48,11 @@ impl Transfer {
         }
     }
 
+    /// The opacity, and the factor of the gradient's magnitude.
+    pub(super) fn curves(&self) -> (&Curve<f64>, Option<&Curve<f64>>) {
+        (&self.opacity, self.factor.as_ref())
+    }
+
     /// What a ray sees, in that order, as the scalar goes evenly from a finite value to another, each piece handed to `see`;
     /// opacities are times the factor at the gradient's magnitude.
     pub fn along(&self, [from, to]: [f64; 2], gradient: [f32; 3], mut see: impl FnMut(Piece)) {

@@ -15,6 +15,8 @@ pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
     /// without opacity are stepped over.
     fn store(channels: Vec4) -> Self;
+    /// Whether an opacity is above 0 in these numbers.
+    fn is_seen(alpha: f32) -> bool;
     /// The channels of two texels, as stored numbers.
     fn channels(pair: [Self; 2]) -> [f32; 8];
     /// What a stored number is multiplied by.
@@ -33,6 +35,9 @@ impl Texel for [f32; 4] {
     fn store(channels: Vec4) -> Self {
         channels.to_array()
     }
+    fn is_seen(alpha: f32) -> bool {
+        alpha > 0.0
+    }
     const SCALE: f32 = 1.0;
 }
 
@@ -49,6 +54,9 @@ impl Texel for [u16; 4] {
         let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16);
         if texel[3] == 0 { Self::default() } else { texel }
     }
+    fn is_seen(alpha: f32) -> bool {
+        alpha * 65535.0 + 0.5 >= 1.0
+    }
     const SCALE: f32 = 1.0 / 65535.0;
 }
 
@@ -64,6 +72,9 @@ impl Texel for [u8; 4] {
     fn store(channels: Vec4) -> Self {
         let texel = channels.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
         if texel[3] == 0 { Self::default() } else { texel }
+    }
+    fn is_seen(alpha: f32) -> bool {
+        alpha * 255.0 + 0.5 >= 1.0
     }
     const SCALE: f32 = 1.0 / 255.0;
 }
