@@ -1,4 +1,5 @@
 //! Light: how voxels and polygons answer it, and how strong it still is in the volume.
 
 pub mod shading;
+pub(crate) mod side_by_side;
 pub mod strength;

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use crate::components::TexelKind;
 use crate::schedule::Product;
 use crate::volume::bricks::Bricks;
+use crate::volume::cells::marked_cells;
 pub use texel::{BRIGHT, FAINT, Texel};
 
 /// Cells along one edge of a brick.
@@ -147,17 +148,7 @@ impl<T: Texel> Texels<T> {
                 .enumerate()
                 .fold(0_u64, |bits, (x, texel)| bits | u64::from(texel.load().w > 0.0) << x)
         };
-        // Nine bits a row: a cell is interesting if a bit of its row or the next one, in its slice or the next, is set.
-        let slices: [[u64; CELLS]; ROW] = std::array::from_fn(|z| {
-            let rows: [u64; ROW] = std::array::from_fn(|y| opaque(z, y));
-            std::array::from_fn(|y| rows[y] | rows[y + 1])
-        });
-        std::array::from_fn(|z| {
-            (0..CELLS).fold(0, |bits, y| {
-                let row = slices[z][y] | slices[z + 1][y];
-                bits | ((row | row >> 1) & 0xff) << (8 * y)
-            })
-        })
+        marked_cells(opaque)
     }
 
     /// Bytes that the bricks and their table take.

@@ -2,6 +2,7 @@
 
 pub mod arrays;
 pub mod bricks;
+mod cells;
 pub mod classification;
 pub mod clipping;
 pub mod coefficients;

@@ -32,13 +32,20 @@ struct Levels {
     cells: Vec<[u64; CELLS]>,
     blocks: [usize; 3],
     distances: Vec<u8>,
-    /// Of values alone.
+    /// Of values that are looked for around samples.
     near: Option<Near>,
 }
 
 impl PartialEq for Pyramid {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Levels {
+    fn of(Interest { counts, table, cells }: Interest) -> Self {
+        let full = FullBlocks::of(counts, &table, &cells);
+        Self { table, cells, blocks: full.counts, distances: full.distances(), near: None }
     }
 }
 
@@ -54,20 +61,16 @@ impl Pyramid {
     /// The pyramid of the gel that is made of a layer.
     #[must_use]
     pub(crate) fn of_layer(interest: Interest) -> Self {
-        let Interest { counts, table, cells } = interest;
-        let full = FullBlocks::of(counts, &table, &cells);
-        let (blocks, table, near) = (full.counts, Vec::new(), None);
-        Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
+        // The gel has the same table.
+        Self(Arc::new(Levels { table: Vec::new(), ..Levels::of(interest) }))
     }
 
-    /// The pyramid of interesting `cells`, of the bricks that `table` numbers on a grid of `counts` bricks; of values, which may
-    /// be looked for around samples.
+    /// The pyramid of interesting cells of values, which may be looked for around samples if `around` says so.
     #[must_use]
-    pub(crate) fn of_cells(counts: [usize; 3], table: Vec<u32>, cells: Vec<[u64; CELLS]>) -> Self {
-        let full = FullBlocks::of(counts, &table, &cells);
-        let near = Some(Near::of(counts, &table, &cells));
-        let blocks = full.counts;
-        Self(Arc::new(Levels { table, cells, blocks, distances: full.distances(), near }))
+    pub(crate) fn of_cells(interest: Interest, around: bool) -> Self {
+        let Interest { counts, table, cells } = &interest;
+        let near = around.then(|| Near::of(*counts, table, cells));
+        Self(Arc::new(Levels { near, ..Levels::of(interest) }))
     }
 
     /// The arrays behind the pointer, for rays.

@@ -1,6 +1,8 @@
 //! Which cells of a field may be seen: ruled out by the values of the voxels that its filter reaches, and by how far those
 //! are apart. Of what is ruled out, no place between the voxels has an opacity above 0.
 
+mod by_values;
+
 use rayon::prelude::*;
 
 use super::bricks::EDGE;
@@ -10,6 +12,7 @@ use super::filter::{overshoot, steepness};
 use super::gradients::{Gradients, Steepest};
 use super::grid::{Grid, Scalar, Scalars};
 use super::hull::{Axes, Hull};
+use super::interest::Interest;
 use super::pyramid::Pyramid;
 use super::ranges::Ranges;
 use crate::components::Filter;
@@ -39,6 +42,8 @@ pub struct Seen<'a> {
     pub classifier: &'a Classifier,
     /// What is cut away.
     pub cut: Option<&'a Cut>,
+    /// Whether it is looked for around samples, too.
+    pub around: bool,
 }
 
 impl Seen<'_> {
@@ -47,13 +52,16 @@ impl Seen<'_> {
     pub fn pyramid(&self, watch: &Watch) -> Pyramid {
         let counts = self.grid.size.map(|n| n.div_ceil(EDGE));
         let gradients = Gradients::new(self.grid);
+        let risen = self.risen();
         let of = |at: usize| {
             let brick = [at % counts[0], at / counts[0] % counts[1], at / (counts[0] * counts[1])];
             if watch.check().is_err() || !self.may_show(&gradients, brick, counts) {
                 return None;
             }
-            let cells =
-                with_scalars!(self.scalars, values => self.cells(&gradients, values, brick));
+            let cells = with_scalars!(self.scalars, values => match &risen {
+                Some(risen) => self.cells_by_values(values, brick, risen),
+                None => self.cells(&gradients, values, brick),
+            });
             cells.iter().any(|word| *word != 0).then_some(cells)
         };
         let found: Vec<_> = (0..counts.iter().product()).into_par_iter().map(of).collect();
@@ -65,7 +73,7 @@ impl Seen<'_> {
             })
         };
         let table = found.into_iter().map(stored).collect();
-        Pyramid::of_cells(counts, table, cells)
+        Pyramid::of_cells(Interest { counts, table, cells }, self.around)
     }
 
     /// Whether anything of a brick of cells may be seen, by the ranges of the bricks that it reaches.

@@ -11,6 +11,7 @@ use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
 use super::window::{Cells, Window};
 use crate::light::shading::{Lamp, Lamps, Reflectance};
+use crate::light::side_by_side::{self, Lighting};
 use crate::light::strength::LightStrength;
 use crate::view::composite::{recolor, thicken};
 use crate::view::walk::{FRACTION_BITS, Tile};
@@ -39,6 +40,8 @@ pub struct Values<'a> {
     integrated: bool,
     cut: Option<Cut>,
     lamps: &'a Lamps,
+    /// All of them, in the order in which they are summed.
+    all_lamps: Vec<&'a Lamp>,
     how: Reflectance,
     strengths: &'a [Option<LightStrength>],
 }
@@ -63,6 +66,7 @@ impl<'a> Values<'a> {
             index_to_world: grid.index_to_world,
             cut: clip.as_ref().map(|clip| Cut::new(clip, grid)),
             lamps,
+            all_lamps: lamps.plain.iter().chain(lamps.shadowed.iter().map(|(_, l)| l)).collect(),
             how: Reflectance::from(material),
             strengths,
         }
@@ -78,6 +82,46 @@ impl<'a> Values<'a> {
     /// Whether what a sample shows is found around it.
     fn looks_around(&self) -> bool {
         self.integrated || !self.surfaces.is_empty()
+    }
+
+    /// Whether what a sample shows is told by its value and gradient alone, and by nothing about its place or slab.
+    fn is_plain(&self) -> bool {
+        !self.integrated && self.cut.is_none() && self.strengths.iter().all(Option::is_none)
+    }
+
+    /// [`look`](Self::look) for samples of the rays `met`, in their order, that are [plain](Self::is_plain): side by side, to the
+    /// last bit the same.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn look_at_all(
+        &self,
+        sampled: &[Sampled; LANES],
+        (met, fade): (Lanes, f32),
+        seen: &mut [Vec4; LANES],
+    ) {
+        let mut values = [0.0; LANES];
+        let mut gradients = [[0.0; LANES]; 3];
+        for (at, sampled) in sampled.iter().enumerate() {
+            values[at] = sampled.value;
+            side_by_side::set(&mut gradients, at, Vec3::from(sampled.gradient));
+        }
+        let alphas = self.classifier.opacities(&values, &gradients);
+        let colors = self.classifier.only_color().map(side_by_side::all).unwrap_or_else(|| {
+            let mut colors = [[0.0; LANES]; 3];
+            for at in (0..LANES).filter(|&at| alphas[at] > 0.0) {
+                let gradient = side_by_side::one(&gradients, at).to_array();
+                side_by_side::set(&mut colors, at, self.classifier.color(values[at], gradient));
+            }
+            colors
+        });
+        let lighting = Lighting { ambient: 0.0, lamps: &self.all_lamps, how: self.how };
+        let reflected = lighting.sent(&colors, &side_by_side::normals(&gradients));
+        for (at, lane) in each(met).enumerate() {
+            let reflected = side_by_side::one(&reflected, at);
+            let color = side_by_side::one(&colors, at);
+            let lit = self.lit(color, reflected, fade, alphas[at]);
+            seen[lane] = if alphas[at] > 0.0 { lit } else { Vec4::ZERO };
+        }
     }
 
     /// Associated RGBA per opacity unit of a sample that stands for a slab; of its reflected part `fade` is left.
@@ -239,15 +283,19 @@ impl Source for Values<'_> {
         let middles = each(met).map(|lane| spot(tile.at_sample(lane, k)));
         let found = spots.iter_mut().zip(middles).map(|(made, spot)| *made = spot).count();
         self.field.sample(level, &spots[..found], &mut sampled);
-        let slabs = if self.integrated {
-            integrated::ends((&self.field, level), tile, (k, met), &mut crossings.ends)
+        if self.is_plain() {
+            simd.vectorize(|| self.look_at_all(&sampled, (met, fade), seen));
         } else {
-            [[0.0; 2]; LANES]
-        };
-        for (lane, sampled) in each(met).zip(&sampled) {
-            let slab = Ends { values: slabs[lane], ratio: ratios[lane] };
-            let slab = self.integrated.then_some(slab);
-            seen[lane] = self.look((sampled, slab), || self.world(tile, lane, k), fade);
+            let slabs = if self.integrated {
+                integrated::ends((&self.field, level), tile, (k, met), &mut crossings.ends)
+            } else {
+                [[0.0; 2]; LANES]
+            };
+            for (lane, sampled) in each(met).zip(&sampled) {
+                let slab = Ends { values: slabs[lane], ratio: ratios[lane] };
+                let slab = self.integrated.then_some(slab);
+                seen[lane] = self.look((sampled, slab), || self.world(tile, lane, k), fade);
+            }
         }
         if !self.surfaces.is_empty() {
             for (lane, sampled) in each(met).zip(&sampled) {

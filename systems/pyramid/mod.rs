@@ -42,6 +42,8 @@ struct Values {
     unit: OpacityUnit,
     clip: Option<Clip>,
     filter: Filter,
+    /// Whether slabs are integrated.
+    integrate: bool,
 }
 
 impl System for StackPyramid {
@@ -79,6 +81,7 @@ impl System for StackPyramid {
                 unit: OpacityUnit(unit),
                 clip: clip.cloned(),
                 filter: sampling.filter,
+                integrate: sampling.integrate,
             };
             out.derive(entity, Inputs::Values(Box::new(values)), |inputs| {
                 let pyramid = inputs.pyramid(watch);
@@ -118,11 +121,12 @@ impl Inputs {
 
 impl Values {
     fn pyramid(&self, watch: &Watch) -> Pyramid {
-        let Self { scalars, ranges, grid, classify, unit, clip, filter } = self;
+        let Self { scalars, ranges, grid, classify, unit, clip, filter, integrate } = self;
         // What is seen does not depend on the material: a change of color makes no pyramid.
         let classifier = &Classifier::new(classify, &Material::default(), unit.0);
         let cut = clip.as_ref().map(|clip| Cut::new(clip, grid));
         let (cut, filter) = (cut.as_ref(), *filter);
-        Seen { scalars, ranges, grid, filter, classifier, cut }.pyramid(watch)
+        let around = classifier.looks_around(*integrate);
+        Seen { scalars, ranges, grid, filter, classifier, cut, around }.pyramid(watch)
     }
 }

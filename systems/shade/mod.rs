@@ -1,7 +1,5 @@
 //! `shade`: what every interesting voxel sends towards the observer, light by light (algorithm §3, Levoy 1988).
 
-mod lit_row;
-
 use fearless_simd::{Level, dispatch};
 use glam::Vec4;
 use hecs::{Entity, World};
@@ -9,6 +7,7 @@ use hecs::{Entity, World};
 use crate::components::{CastsShadow, Classify, Clip, Light, Material, OpacityUnit, Reconstruct};
 use crate::error::Error;
 use crate::light::shading::{Lamp, Lamps, Reflectance, lamps};
+use crate::light::side_by_side::{self, Lighting, Vectors};
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
@@ -21,10 +20,12 @@ use crate::volume::labels::Tint;
 use crate::volume::layer::{LitColors, Opacity};
 use crate::volume::scene_volumes::{Content, with_content};
 use crate::with_scalars;
-use lit_row::{Lighting, Row};
 
 /// Voxels under a cut that are shaded by its normal alone: those between which the opacity rises, and the next.
 const CUT_DEEP: f64 = 1.5;
+
+/// A vector at every voxel of a row.
+type Row = Vectors<EDGE>;
 
 /// Makes the [`LitColors`] of every volume that is classified.
 pub(crate) struct Shade;
@@ -172,20 +173,20 @@ impl Shading<'_> {
             }
             let first = [x, y + row % EDGE, z + row / EDGE];
             let gradients = self.gradients.side_by_side(values, first, n);
-            let mut normals = lit_row::normals(&gradients);
+            let mut normals = side_by_side::normals(&gradients);
             if let Some(cut) = &self.cut {
                 for at in 0..n {
                     let section = cut.under([x + at, first[1], first[2]]);
-                    let normal = section.turned(lit_row::one(&normals, at), CUT_DEEP);
-                    lit_row::set(&mut normals, at, normal);
+                    let normal = section.turned(side_by_side::one(&normals, at), CUT_DEEP);
+                    side_by_side::set(&mut normals, at, normal);
                 }
             }
             let from = self.inputs.grid.offset(first);
             let colors = self.colors(&values[from..][..n], &gradients, from);
-            let lit = lighting.row(&colors, &normals);
+            let lit = lighting.sent(&colors, &normals);
             for (at, (made, alpha)) in made.iter_mut().zip(alpha).enumerate() {
                 if *alpha > 0.0 {
-                    *made = lit_row::one(&lit, at).to_array();
+                    *made = side_by_side::one(&lit, at).to_array();
                 }
             }
         }
@@ -196,15 +197,15 @@ impl Shading<'_> {
     fn colors<T: Scalar>(&self, values: &[T], gradients: &Row, from: usize) -> Row {
         let tint = self.inputs.tint.as_ref();
         if let (Some(color), None) = (self.classifier.only_color(), tint) {
-            return lit_row::all(color);
+            return side_by_side::all(color);
         }
         let mut colors = [[0.0; EDGE]; 3];
         for (at, value) in values.iter().enumerate() {
-            let gradient = lit_row::one(gradients, at).to_array();
+            let gradient = side_by_side::one(gradients, at).to_array();
             let color = self.classifier.color(value.value(), gradient);
             let tint = tint.map_or(Vec4::ZERO, |tint| tint.colors[from + at]);
             let tinted = if tint.w == 0.0 { color } else { color.lerp(tint.truncate(), tint.w) };
-            lit_row::set(&mut colors, at, tinted);
+            side_by_side::set(&mut colors, at, tinted);
         }
         colors
     }

@@ -100,6 +100,16 @@ impl Contours {
         })
     }
 
+    /// The scalars at which a contour may be seen, if that does not depend on the gradient.
+    pub fn risen(&self) -> Option<Vec<[f64; 2]>> {
+        let seen = self.0.iter().filter(|line| line.opacity > 0.0);
+        let risen = |line: &Line| match line.form {
+            Form::Above => Some([line.value, f64::INFINITY]),
+            Form::Around => line.is_surface().then_some([line.value; 2]),
+        };
+        seen.map(risen).collect()
+    }
+
     /// Whether a contour may be seen at scalars from `low` to `high` and gradients no longer than `steepest`: 1, else 0.
     #[inline]
     pub fn show<const N: usize>(

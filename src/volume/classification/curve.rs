@@ -106,6 +106,11 @@ impl Curve<f64> {
 pub(crate) struct Risen(Vec<[f64; 2]>);
 
 impl Risen {
+    /// The intervals.
+    pub fn intervals(&self) -> &[[f64; 2]] {
+        &self.0
+    }
+
     /// Adds an interval behind all others; it may touch the last.
     fn add(&mut self, [low, high]: [f64; 2]) {
         match self.0.last_mut() {

@@ -15,6 +15,7 @@ use crate::components::{Classify, Material};
 use crate::volume::ranges::Range;
 use contour::Contours;
 pub use contour::SharpContour;
+use curve::Risen;
 pub use integral::Piece;
 use mixture::Mixture;
 use numbers::fraction;
@@ -154,6 +155,27 @@ impl Classifier {
             let stated = Some(piece.color).filter(|color| self.colored && color.is_finite());
             see(Piece { color: stated.unwrap_or(self.color.as_dvec3()), ..piece });
         });
+    }
+
+    /// The scalars at which anything may be seen, from one end to another each, if that does not depend on the gradient.
+    #[must_use]
+    pub(crate) fn risen(&self) -> Option<Vec<[f64; 2]>> {
+        match &self.how {
+            How::Contours(contours) => contours.risen(),
+            How::Transfer(transfer) => {
+                (!transfer.is_of_gradient()).then(|| transfer.risen().intervals().to_vec())
+            }
+            How::Mixture(mixture) => {
+                Some(mixture.risen().flat_map(Risen::intervals).copied().collect())
+            }
+            How::Regions(_) => None,
+        }
+    }
+
+    /// Whether what a sample shows is found around it: surfaces, or what slabs [integrate](Self::integrates), if they are to.
+    #[must_use]
+    pub(crate) fn looks_around(&self, integrate: bool) -> bool {
+        integrate && self.integrates() || !self.surfaces().is_empty()
     }
 
     /// Whether the opacity depends on the gradient at all.

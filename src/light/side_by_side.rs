@@ -1,39 +1,38 @@
-//! A row of voxels under the lights, side by side: to the last bit what [`Lamp::reflected`] gives of each alone.
+//! Several places under the lights, side by side: to the last bit what [`Lamp::reflected`] gives of each alone.
 //!
 //! Everything here is in plain arrays, and compiled anew within each instruction set of whoever calls it.
 #![allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 
 use glam::Vec3;
 
-use crate::light::shading::{Lamp, Reflectance};
-use crate::volume::bricks::EDGE;
+use super::shading::{Lamp, Reflectance};
 
-/// A vector at every voxel of a row, axis by axis or channel by channel.
-pub(crate) type Row = [[f32; EDGE]; 3];
+/// A vector at each of `N` places, axis by axis or channel by channel.
+pub(crate) type Vectors<const N: usize> = [[f32; N]; 3];
 
-/// A row of the same vector.
+/// The same vector everywhere.
 #[inline(always)]
-pub(crate) fn all(vector: Vec3) -> Row {
-    vector.to_array().map(|part| [part; EDGE])
+pub(crate) fn all<const N: usize>(vector: Vec3) -> Vectors<N> {
+    vector.to_array().map(|part| [part; N])
 }
 
-/// The vector of one voxel.
+/// The vector at one place.
 #[inline(always)]
-pub(crate) fn one(row: &Row, at: usize) -> Vec3 {
-    Vec3::new(row[0][at], row[1][at], row[2][at])
+pub(crate) fn one<const N: usize>(vectors: &Vectors<N>, at: usize) -> Vec3 {
+    Vec3::new(vectors[0][at], vectors[1][at], vectors[2][at])
 }
 
-/// Sets the vector of one voxel.
+/// Sets the vector at one place.
 #[inline(always)]
-pub(crate) fn set(row: &mut Row, at: usize, vector: Vec3) {
-    row.iter_mut().zip(vector.to_array()).for_each(|(row, part)| row[at] = part);
+pub(crate) fn set<const N: usize>(vectors: &mut Vectors<N>, at: usize, vector: Vec3) {
+    vectors.iter_mut().zip(vector.to_array()).for_each(|(parts, part)| parts[at] = part);
 }
 
 /// N of every gradient: [`normal`](crate::volume::gradients::normal), side by side.
 #[inline(always)]
-pub(crate) fn normals(gradients: &Row) -> Row {
-    let mut made = [[0.0; EDGE]; 3];
-    for at in 0..EDGE {
+pub(crate) fn normals<const N: usize>(gradients: &Vectors<N>) -> Vectors<N> {
+    let mut made = [[0.0; N]; 3];
+    for at in 0..N {
         let [x, y, z] =
             [gradients[0][at], gradients[1][at], gradients[2][at]].map(|part| -f64::from(part));
         let per = 1.0 / (x * x + y * y + z * z).sqrt();
@@ -58,18 +57,18 @@ pub(crate) struct Lighting<'a> {
 impl Lighting<'_> {
     /// What voxels of these colors and normals send towards the observer.
     #[inline(always)]
-    pub fn row(&self, colors: &Row, normals: &Row) -> Row {
-        let mut sent = [[0.0; EDGE]; 3];
+    pub fn sent<const N: usize>(&self, colors: &Vectors<N>, normals: &Vectors<N>) -> Vectors<N> {
+        let mut sent = [[0.0; N]; 3];
         for lamp in self.lamps {
             let amounts = amounts(lamp, normals, &self.how);
             for (channel, light) in lamp.light.to_array().into_iter().enumerate() {
-                for at in 0..EDGE {
+                for at in 0..N {
                     sent[channel][at] += colors[channel][at] * light * amounts[at];
                 }
             }
         }
         for channel in 0..3 {
-            for at in 0..EDGE {
+            for at in 0..N {
                 sent[channel][at] += colors[channel][at] * self.ambient;
             }
         }
@@ -79,9 +78,9 @@ impl Lighting<'_> {
 
 /// `k_d max(N·L, 0) + k_s max(N·H, 0)^n` of every normal.
 #[inline(always)]
-fn amounts(lamp: &Lamp, normals: &Row, how: &Reflectance) -> [f32; EDGE] {
-    let (mut diffuse, mut glints) = ([0.0; EDGE], [0.0; EDGE]);
-    for at in 0..EDGE {
+fn amounts<const N: usize>(lamp: &Lamp, normals: &Vectors<N>, how: &Reflectance) -> [f32; N] {
+    let (mut diffuse, mut glints) = ([0.0; N], [0.0; N]);
+    for at in 0..N {
         let facing = along(normals, at, lamp.toward);
         let side = if how.two_sided && facing < 0.0 { -1.0 } else { 1.0 };
         diffuse[at] = how.diffuse * (side * facing).max(0.0);
@@ -89,7 +88,7 @@ fn amounts(lamp: &Lamp, normals: &Row, how: &Reflectance) -> [f32; EDGE] {
     }
     if how.specular > 0.0 {
         let powers = powers(&glints, how);
-        for at in 0..EDGE {
+        for at in 0..N {
             diffuse[at] += if glints[at] > 0.0 { how.specular * powers[at] } else { 0.0 };
         }
     }
@@ -97,19 +96,19 @@ fn amounts(lamp: &Lamp, normals: &Row, how: &Reflectance) -> [f32; EDGE] {
 }
 
 #[inline(always)]
-fn along(normals: &Row, at: usize, direction: Vec3) -> f32 {
+fn along<const N: usize>(normals: &Vectors<N>, at: usize, direction: Vec3) -> f32 {
     normals[0][at] * direction.x + normals[1][at] * direction.y + normals[2][at] * direction.z
 }
 
 /// The n-th powers of glints; of those that are not above 0, anything.
 #[inline(always)]
-fn powers(glints: &[f32; EDGE], how: &Reflectance) -> [f32; EDGE] {
+fn powers<const N: usize>(glints: &[f32; N], how: &Reflectance) -> [f32; N] {
     let Some(mut left) = how.whole_shininess() else {
         return glints.map(|glint| if glint > 0.0 { how.glint(glint) } else { 0.0 });
     };
-    let (mut squares, mut products) = (glints.map(f64::from), [1.0; EDGE]);
+    let (mut squares, mut products) = (glints.map(f64::from), [1.0; N]);
     while left > 0 {
-        for at in 0..EDGE {
+        for at in 0..N {
             products[at] *= if left & 1 == 1 { squares[at] } else { 1.0 };
             squares[at] *= squares[at];
         }
@@ -135,7 +134,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_row_is_lit_as_each_of_its_voxels(
+        fn places_side_by_side_are_lit_as_each_alone(
             gradients in [vector(), vector(), vector(), vector(), vector(), vector(), vector(), vector()],
             lights in proptest::collection::vec(([-1.0..1.0_f64, -1.0..1.0, -1.0..1.0], 0.1_f32..3.0), 0..3),
             (specular, shininess) in (0.0_f32..0.5, prop_oneof![Just(1.0_f32), Just(20.0), 1.0_f32..70.0]),
@@ -148,10 +147,10 @@ mod tests {
             }).collect();
             let lamps: Vec<&Lamp> = lamps.iter().collect();
             let color = Vec3::new(1.0, tint, 0.3);
-            let (mut row, colors) = ([[0.0; EDGE]; 3], all(color));
+            let (mut row, colors): (Vectors<8>, Vectors<8>) = ([[0.0; 8]; 3], all(color));
             gradients.iter().enumerate().for_each(|(at, gradient)| set(&mut row, at, Vec3::from(*gradient)));
             let lighting = Lighting { ambient, lamps: &lamps, how };
-            let made = dispatch!(Level::new(), _simd => lighting.row(&colors, &normals(&row)));
+            let made = dispatch!(Level::new(), _simd => lighting.sent(&colors, &normals(&row)));
             for (at, gradient) in gradients.iter().enumerate() {
                 let reflected = lamps.iter().map(|lamp| lamp.reflected(color, normal(*gradient), &how));
                 let expected = color * ambient + reflected.sum::<Vec3>();
