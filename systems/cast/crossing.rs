@@ -34,6 +34,8 @@ pub(crate) struct Crossings {
     pub met: Vec<CrossedSurface>,
     /// What each crosses in the slab that was met last.
     pub sheets: [Sheet; LANES],
+    /// The gel of that slab without what is crossed: associated RGBA per opacity unit.
+    pub bare: [Vec4; LANES],
     /// The value where the slab that was met last ends, and the number of the slab that begins there.
     pub ends: [(i64, f32); LANES],
 }
@@ -55,6 +57,8 @@ pub(crate) struct Sheet {
     pub turn: DVec3,
     /// Their opacity.
     pub opacity: f64,
+    /// Where in the slab the first of them is, 0..=1.
+    pub part: f64,
 }
 
 impl Sheet {
@@ -66,14 +70,8 @@ impl Sheet {
             seen.under(crossed.color.as_dvec3() * opacity, opacity);
             turn.under((crossed.normal * TURN).as_dvec3() * opacity, opacity);
         }
-        Self { color: seen.color, turn: turn.color, opacity: seen.opacity() }
-    }
-
-    /// What is left of it in a sliver that is a part of its slab.
-    pub fn thinned(&self, part: f64) -> Self {
-        let opacity = thicken(self.opacity, part);
-        let left = recolor(self.opacity, opacity, part);
-        Self { color: self.color * left, turn: self.turn * left, opacity }
+        let part = surfaces.first().map_or(0.0, |first| first.part);
+        Self { color: seen.color, turn: turn.color, opacity: seen.opacity(), part }
     }
 
     /// Those of volumes that overlap: none hides another.
@@ -82,6 +80,11 @@ impl Sheet {
             color: self.color + other.color,
             turn: self.turn + other.turn,
             opacity: 1.0 - (1.0 - self.opacity) * (1.0 - other.opacity),
+            part: match [self, other].map(|sheet| sheet.opacity > 0.0) {
+                [true, true] => self.part.min(other.part),
+                [true, false] => self.part,
+                _ => other.part,
+            },
         }
     }
 }

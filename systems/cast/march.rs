@@ -175,6 +175,8 @@ pub fn march<S: Simd, M: Media>(
         for lane in each(cut) {
             let gel = (met >> lane & 1 == 1).then(|| media.slab(entered, k, lane));
             let sheet = (gel.is_some() && media.has_surfaces()).then(|| media.sheet(entered, lane));
+            let crosses = sheet.is_some_and(|sheet| sheet.opacity > 0.0);
+            let gel = if crosses { Some(media.bare(entered, k, lane)) } else { gel };
             let slab = Slab { k, gel, sheet, from: slabs.place(k, slabs.eye) };
             slab.split(slabs, hits, |hit| shade(hit, lane), &mut gathered[lane], counts);
             if !gathered[lane].is_open(slabs.stop) {
@@ -219,7 +221,7 @@ impl Next {
 /// A slab of one ray that is cut.
 struct Slab {
     k: i64,
-    /// Associated colour and opacity of the whole of it, where there is gel.
+    /// Associated colour and opacity of the whole of it, where there is gel; without the surfaces in it.
     gel: Option<(DVec3, f64)>,
     /// The surfaces in it, of volumes that have some.
     sheet: Option<Sheet>,
@@ -228,7 +230,8 @@ struct Slab {
 }
 
 impl Slab {
-    /// The slab cut at the depths of the hits in it: sliver, polygon, sliver, polygon, …, sliver.
+    /// The slab cut at the depths of the hits in it: sliver, polygon, sliver, polygon, …, sliver; where it has surfaces they
+    /// are met as a polygon is, at their own depth.
     fn split(
         &self,
         slabs: &Slabs,
@@ -237,29 +240,51 @@ impl Slab {
         ray: &mut Gathering,
         counts: &mut Counts,
     ) {
-        let sliver = |ray: &mut Gathering, part: f64, counts: &mut Counts| {
-            let Some((color, opacity)) = self.gel.filter(|_| part > 0.0) else { return };
-            let opacity = opacity.min(1.0);
-            let thick = thicken(opacity, part);
-            counts.slivers += 1;
-            let sheet = self.sheet.map(|sheet| sheet.thinned(part));
-            ray.gel(color * recolor(opacity, thick, part), thick, sheet, slabs.stop);
-        };
         let mut passed = self.from;
+        let mut sheet = self.sheet.filter(|sheet| sheet.opacity > 0.0 && sheet.part >= passed);
         while ray.has_hits() {
             let hit = &hits[ray.left[0] as usize];
             if slabs.number(hit.depth) > self.k || !ray.is_open(slabs.stop) {
                 break;
             }
             let place = slabs.place(self.k, hit.depth).max(passed);
-            sliver(ray, place - passed, counts);
+            if let Some(sheet) = sheet.take_if(|sheet| sheet.part <= place) {
+                self.surface(&mut passed, &sheet, (ray, slabs.stop), counts);
+            }
+            self.sliver(place - passed, (ray, slabs.stop), counts);
             passed = place;
             ray.polygon(&shade(hit), slabs.stop, counts);
             ray.left[0] += 1;
         }
-        if ray.is_open(slabs.stop) {
-            sliver(ray, 1.0 - passed, counts);
+        if let Some(sheet) = sheet.filter(|_| ray.is_open(slabs.stop)) {
+            self.surface(&mut passed, &sheet, (ray, slabs.stop), counts);
         }
+        if ray.is_open(slabs.stop) {
+            self.sliver(1.0 - passed, (ray, slabs.stop), counts);
+        }
+    }
+
+    /// The gel of a part of it.
+    fn sliver(&self, part: f64, (ray, stop): (&mut Gathering, f64), counts: &mut Counts) {
+        let Some((color, opacity)) = self.gel.filter(|_| part > 0.0) else { return };
+        let opacity = opacity.min(1.0);
+        let thick = thicken(opacity, part);
+        counts.slivers += 1;
+        let bare = self.sheet.map(|_| Sheet::default());
+        ray.gel(color * recolor(opacity, thick, part), thick, bare, stop);
+    }
+
+    /// The gel from where it is `passed` to its surfaces, and those.
+    fn surface(
+        &self,
+        passed: &mut f64,
+        sheet: &Sheet,
+        (ray, stop): (&mut Gathering, f64),
+        counts: &mut Counts,
+    ) {
+        self.sliver(sheet.part - *passed, (ray, stop), counts);
+        *passed = sheet.part;
+        ray.gel(sheet.color, sheet.opacity, Some(*sheet), stop);
     }
 }
 

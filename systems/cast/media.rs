@@ -41,6 +41,11 @@ pub(crate) trait Media: Sync {
     /// The gel of the slab around sample `k` for a ray that meets it there: associated colour and opacity.
     fn slab(&self, entered: &mut Self::Entered, k: i64, lane: usize) -> (DVec3, f64);
 
+    /// The gel of that slab without the surfaces in it.
+    fn bare(&self, entered: &mut Self::Entered, k: i64, lane: usize) -> (DVec3, f64) {
+        self.slab(entered, k, lane)
+    }
+
     /// Whether there are surfaces in it, whose edges are sought as those of polygons are.
     #[inline]
     fn has_surfaces(&self) -> bool {

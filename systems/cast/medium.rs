@@ -117,9 +117,14 @@ impl<S: Source> Medium<'_, S> {
 
     /// The slab of a sample with the dust that is there.
     #[inline(never)]
-    fn dusty(&self, dust: &Dust, entered: &Entered, (lane, k): (usize, i64)) -> (DVec3, f64) {
+    fn dusty(
+        &self,
+        (dust, sample): (&Dust, Vec4),
+        entered: &Entered,
+        (lane, k): (usize, i64),
+    ) -> (DVec3, f64) {
         let (world, ratio) = self.place(entered, lane, k);
-        slab(dust.join(entered.seen[lane], world), ratio)
+        slab(dust.join(sample, world), ratio)
     }
 
     /// The first sample from `k` on that is not known to be empty for all rays of the packet.
@@ -274,8 +279,16 @@ impl<S: Source> Media for Medium<'_, S> {
     fn slab(&self, entered: &mut Entered, k: i64, lane: usize) -> (DVec3, f64) {
         let sample = entered.seen[lane];
         match self.dust {
-            Some(dust) => self.dusty(dust, entered, (lane, k)),
+            Some(dust) => self.dusty((dust, sample), entered, (lane, k)),
             None => slab(sample, entered.ratios[lane]),
+        }
+    }
+
+    fn bare(&self, entered: &mut Entered, k: i64, lane: usize) -> (DVec3, f64) {
+        let sample = if self.has_surfaces() { &entered.crossings.bare } else { &entered.seen };
+        match self.dust {
+            Some(dust) => self.dusty((dust, sample[lane]), entered, (lane, k)),
+            None => slab(sample[lane], entered.ratios[lane]),
         }
     }
 

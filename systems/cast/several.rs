@@ -64,6 +64,33 @@ macro_rules! with_medium {
     };
 }
 
+impl Several<'_> {
+    /// The gel of all volumes in a slab, with the surfaces in it or without.
+    fn joined(
+        &self,
+        entered: &mut EnteredAll,
+        (k, lane): (i64, usize),
+        bare: bool,
+    ) -> (DVec3, f64) {
+        let EnteredAll { each, parts } = entered;
+        parts.clear();
+        let there = self.media.iter().zip(each).filter(|(_, within)| within.met >> lane & 1 == 1);
+        for (medium, within) in there {
+            if let Some(dust) = self.dust.filter(|_| parts.is_empty()) {
+                let (world, ratio) =
+                    with_medium!(medium, inner => inner.place(&within.entered, lane, k));
+                parts.push(slab(dust.join(Vec4::ZERO, world), ratio));
+            }
+            let within = &mut within.entered;
+            parts.push(with_medium!(medium, inner => match bare {
+                true => inner.bare(within, k, lane),
+                false => inner.slab(within, k, lane),
+            }));
+        }
+        overlap(parts)
+    }
+}
+
 impl Media for Several<'_> {
     type Entered = EnteredAll;
 
@@ -130,18 +157,11 @@ impl Media for Several<'_> {
     }
 
     fn slab(&self, entered: &mut EnteredAll, k: i64, lane: usize) -> (DVec3, f64) {
-        let EnteredAll { each, parts } = entered;
-        parts.clear();
-        let there = self.media.iter().zip(each).filter(|(_, within)| within.met >> lane & 1 == 1);
-        for (medium, within) in there {
-            if let Some(dust) = self.dust.filter(|_| parts.is_empty()) {
-                let (world, ratio) =
-                    with_medium!(medium, inner => inner.place(&within.entered, lane, k));
-                parts.push(slab(dust.join(Vec4::ZERO, world), ratio));
-            }
-            parts.push(with_medium!(medium, inner => inner.slab(&mut within.entered, k, lane)));
-        }
-        overlap(parts)
+        self.joined(entered, (k, lane), false)
+    }
+
+    fn bare(&self, entered: &mut EnteredAll, k: i64, lane: usize) -> (DVec3, f64) {
+        self.joined(entered, (k, lane), true)
     }
 
     fn has_surfaces(&self) -> bool {

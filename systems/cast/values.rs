@@ -300,6 +300,7 @@ impl Source for Values<'_> {
         if !self.surfaces.is_empty() {
             for (lane, sampled) in each(met).zip(&sampled) {
                 let stretch = Stretch::of(tile, lane, k);
+                crossings.bare[lane] = seen[lane];
                 let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
                 crossings.sheets[lane] = self.cross(level, fade, (&stretch, sampled.value), slab);
             }

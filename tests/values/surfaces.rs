@@ -1,6 +1,7 @@
 //! Contours without thickness: a sphere by formula is where it is and as it is, at any step.
 
 use gelray::prelude::*;
+use gelray::view::samples::POSITIONS;
 
 use super::{FILTERS, carrier, floats, rendered, world};
 
@@ -100,4 +101,44 @@ fn a_surface_is_refused_where_colors_are_interpolated() {
     world.insert_one(volume, Reconstruct::Colors).unwrap();
     let refused = Renderer::new().unwrap().render(&mut world).unwrap_err().to_string();
     assert!(refused.contains("thickness 0"), "{refused}");
+}
+
+#[test]
+fn a_polygon_in_a_surface_is_before_it_or_behind_it_at_every_pixel() {
+    // The surface falls to the right, the polygon upwards: they cross in a line.
+    let [of_surface, of_polygon] = [|x: f64, _: f64| 0.31 * x, |_: f64, z: f64| 0.1 - 0.23 * z];
+    let (white, half) = (glam::Vec3::ONE, 0.5);
+    for (step, filter) in [(0.5, Filter::Linear), (2.0, Filter::Linear), (3.0, Filter::Cubic)] {
+        let field = |at: glam::DVec3| (20.0 + at.y - of_surface(at.x, at.z)) as f32;
+        let contour = Contour { thickness_voxels: 0.0, opacity: half, ..Contour::at(20.0) };
+        let classify = Classify { iso: vec![contour], ..Classify::default() };
+        let view = View { size: [90, 90], height_mm: Some(20.0), ..View::default() };
+        let (coarsest, finest, distance_mm) = (4, 4, Some(step));
+        let sampling =
+            Sampling { coarsest, finest, filter, distance_mm, stop_at: 0.0, ..Sampling::default() };
+        let mut world = world(floats([32; 3], field), classify, (view, sampling));
+        let volume = carrier::<Reconstruct>(&world);
+        let ambient = Material { ambient: 1.0, diffuse: 0.0, ..Material::default() };
+        world.insert_one(volume, Material { color: Color(white), ..ambient }).unwrap();
+        let corners = [[-15.0, -15.0], [15.0, -15.0], [15.0, 15.0], [-15.0, 15.0]];
+        let vertices = corners.map(|[x, z]| [x, of_polygon(x, z), z]).to_vec();
+        let black = Surface { opacity: half, ambient: 0.0, diffuse: 0.0, ..Surface::default() };
+        world.spawn((Polygon { vertices, holes: Vec::new() }, black));
+        // What the ray in the middle of a pixel sees, before pixels are made of several.
+        let samples = rendered(&mut world).samples;
+        let at = |n: usize| samples.layout.margin + n * POSITIONS;
+        for (x, y) in (0..90).flat_map(|y| (0..90).map(move |x| (x, y))) {
+            let [right, up] = [x as f64 - 44.5, 44.5 - y as f64].map(|n| n * 20.0 / 90.0);
+            let (surface, polygon) = (of_surface(right, up), of_polygon(right, up));
+            // White before black, or behind it.
+            let expected = if surface < polygon { 0.5 } else { 0.25 };
+            let [found, .., alpha] = samples.color(at(x), at(y));
+            let known = (surface - polygon).abs() > 2e-3;
+            assert!(
+                !known || (found - expected).abs() < 1e-5,
+                "{filter:?} {step} {x} {y}: {found}"
+            );
+            assert!((alpha - 0.75).abs() < 1e-5, "{filter:?} {step} {x} {y}: {alpha}");
+        }
+    }
 }
