@@ -72,19 +72,32 @@ impl Cut {
     /// What is left of the `extent` voxels from `first` on; `Part` where a bounding sphere cannot tell.
     #[must_use]
     pub fn left(&self, first: [usize; 3], extent: [usize; 3]) -> Left {
+        let [least, most] = self.depths(first, extent);
+        if least >= self.widest / 2.0 {
+            Left::Whole
+        } else if most <= -self.widest / 2.0 {
+            Left::Nothing
+        } else {
+            Left::Part
+        }
+    }
+
+    /// Whether all of a block of voxels lies deeper under the cut than `deep` voxels, so that nothing which happens in the layer
+    /// above does there.
+    #[must_use]
+    pub fn is_deeper(&self, first: [usize; 3], extent: [usize; 3], deep: f64) -> bool {
+        self.depths(first, extent)[0] > deep * self.widest * (1.0 + 1e-9)
+    }
+
+    /// Between which depths under the cut a block of voxels lies, by a sphere around it.
+    fn depths(&self, first: [usize; 3], extent: [usize; 3]) -> [f64; 2] {
         let half = DVec3::from(extent.map(|n| n.saturating_sub(1) as f64 / 2.0));
         let middle = DVec3::from(first.map(|n| n as f64)) + half;
         let m = self.index_to_world.matrix3;
         let radius =
             m.x_axis.length() * half.x + m.y_axis.length() * half.y + m.z_axis.length() * half.z;
         let inside = self.clip.distance(self.index_to_world.transform_point3(middle));
-        if inside - radius >= self.widest / 2.0 {
-            Left::Whole
-        } else if inside + radius <= -self.widest / 2.0 {
-            Left::Nothing
-        } else {
-            Left::Part
-        }
+        [inside - radius, inside + radius]
     }
 
     /// How a world point lies to the cut.

@@ -166,6 +166,9 @@ impl Shading<'_> {
         lighting: &Lighting<'_>,
     ) {
         let ([x, y, z], n) = (place.first, place.extent[0]);
+        // From a voxel under that layer on no normal is turned.
+        let shallow = |cut: &&Cut| !cut.is_deeper(place.first, place.extent, CUT_DEEP + 1.0);
+        let cut = self.cut.as_ref().filter(shallow);
         let rows = alpha.as_chunks::<EDGE>().0.iter().zip(made.as_chunks_mut::<EDGE>().0);
         for (row, (alpha, made)) in rows.enumerate() {
             if alpha.iter().all(|alpha| *alpha <= 0.0) {
@@ -174,7 +177,7 @@ impl Shading<'_> {
             let first = [x, y + row % EDGE, z + row / EDGE];
             let gradients = self.gradients.side_by_side(values, first, n);
             let mut normals = side_by_side::normals(&gradients);
-            if let Some(cut) = &self.cut {
+            if let Some(cut) = cut {
                 for at in 0..n {
                     let section = cut.under([x + at, first[1], first[2]]);
                     let normal = section.turned(side_by_side::one(&normals, at), CUT_DEEP);
