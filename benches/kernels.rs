@@ -38,7 +38,7 @@ fn sample(bencher: Bencher, kind: TexelKind) {
             *texel = Vec4::splat(value(x + i + 9 * y + 81 * z));
         }
     };
-    let gel = GelBricks::make(kind, [9; 3], |_| true, fill);
+    let gel = GelBricks::make(kind, [9; 3], |_| true, &fill);
     let places: Vec<_> = (0..4096)
         .map(|i| ([i % CELLS, i / 3 % CELLS, i / 7 % CELLS], Vec3::new(value(i), 0.3, 0.6)))
         .collect();

@@ -1,23 +1,19 @@
 //! Rays through the voxels of a grid: samples at one global phase, in fixed-point voxel indices (algorithm §1).
 
-use glam::{DVec2, DVec3, I64Vec3};
+mod affine;
+mod places;
+
+use glam::{DVec3, I64Vec3};
 
 use super::camera::Camera;
-use super::samples::POSITIONS;
 use crate::volume::grid::Grid;
+pub(crate) use affine::FRACTION_BITS;
+use affine::{Affine, UNIT};
+pub(crate) use places::TilePlaces;
+pub use places::{LANES, SIDE};
 
-/// Bits of a voxel index behind the point.
-pub(crate) const FRACTION_BITS: u32 = 40;
 /// Bits of a place in a cell that are looked at: exact in an f32.
 pub(crate) const PLACE_BITS: u32 = 24;
-const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
-/// Rays along the side of a tile.
-pub const SIDE: usize = 4;
-/// Rays of a tile.
-pub const LANES: usize = SIDE * SIDE;
-/// How far beside the picture positions may lie, pixels.
-const BESIDE: f64 = 64.0;
-
 /// How the samples of the rays of a view walk through a grid: sample `k` lies at depth `(k + 1/2) Δ`.
 ///
 /// Where a ray is, and how far it goes from sample to sample, are affine over the picture, in perspective too: both are
@@ -37,71 +33,6 @@ pub struct Walk {
     nearest: i64,
     /// Whether rays are parallel.
     is_parallel: bool,
-}
-
-/// Fixed-point triples that are affine over positions of the picture, with more bits behind the point than are read.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Affine {
-    /// At the middle of pixel (0, 0).
-    at: I64Vec3,
-    /// From each position to the one right of it.
-    across: I64Vec3,
-    /// And to the one below.
-    down: I64Vec3,
-    /// Bits more than `FRACTION_BITS`.
-    shift: u32,
-}
-
-impl Affine {
-    /// The triples that `of` gives at window positions (pixels); `None` if some are too great to be told apart there.
-    fn new(of: impl Fn(DVec2) -> DVec3, size: [usize; 2]) -> Option<Self> {
-        let [width, height] = size.map(|n| n as f64);
-        let corners = [
-            (-BESIDE, -BESIDE),
-            (width + BESIDE, -BESIDE),
-            (-BESIDE, height + BESIDE),
-            (width + BESIDE, height + BESIDE),
-        ];
-        let most = corners.map(|(x, y)| of(DVec2::new(x, y)).abs().max_element());
-        let most = most.into_iter().fold(1e-9, f64::max);
-        let whole = most.log2().floor() as i64 + 1;
-        let bits = (61 - whole).min(80);
-        let shift = bits - i64::from(FRACTION_BITS);
-        if !most.is_finite() || shift < 0 {
-            return None;
-        }
-        let unit = 2.0_f64.powi(bits as i32);
-        let fixed = |index: DVec3| (index * unit).round().as_i64vec3();
-        let middle = DVec2::splat(0.5);
-        // Over the whole picture and not from one position to the next: those may differ by less than rounding.
-        let slope =
-            |along: DVec2, n: f64| (of(middle + along * n) - of(middle)) / (n * POSITIONS as f64);
-        let (across, down) = (slope(DVec2::X, width), slope(DVec2::Y, height));
-        let (at, across, down) = (fixed(of(middle)), fixed(across), fixed(down));
-        Some(Self { at, across, down, shift: shift as u32 })
-    }
-
-    /// The same triple everywhere.
-    fn constant(triple: DVec3) -> Self {
-        let at = (triple * UNIT).round().as_i64vec3();
-        Self { at, across: I64Vec3::ZERO, down: I64Vec3::ZERO, shift: 0 }
-    }
-
-    /// Puts those of a tile into `triples`, axis by axis.
-    #[inline]
-    fn tile(&self, [i, j]: [i64; 2], step: i64, triples: &mut [[i64; LANES]; 3]) {
-        let half = if self.shift > 0 { 1_i64 << (self.shift - 1) } else { 0 };
-        for (axis, triples) in triples.iter_mut().enumerate() {
-            let (across, down) = (self.across[axis], self.down[axis]);
-            let first = self.at[axis] + across * i + down * j + half;
-            for (y, row) in triples.chunks_exact_mut(SIDE).enumerate() {
-                let first = first + down * (y as i64 * step);
-                for (x, triple) in row.iter_mut().enumerate() {
-                    *triple = (first + across * (x as i64 * step)) >> self.shift;
-                }
-            }
-        }
-    }
 }
 
 /// Where the sixteen rays of a tile are, side by side on each axis; ray n is the one at `(n mod 4, n / 4)`.
@@ -156,11 +87,16 @@ impl Walk {
         Ok(places.zip(steps).map(walk))
     }
 
-    /// The rays of a tile of positions `step` apart, the first of which is `first`, counted from the middle of pixel (0, 0).
+    /// The rays of a tile. Those that are [scattered](TilePlaces::are_scattered) lie within the lattice that is put into it until
+    /// they are [set](Self::scatter).
     #[inline]
-    pub(crate) fn enter(&self, first: [i64; 2], step: i64, tile: &mut Tile) {
-        self.places.tile(first, step, &mut tile.at);
-        self.steps.tile(first, step, &mut tile.step);
+    pub(crate) fn enter(&self, places: &TilePlaces, tile: &mut Tile) {
+        if places.are_scattered() && !self.is_parallel {
+            // Of rays that are not parallel each is looked at, and not those around them.
+            self.scatter(places, tile);
+        } else {
+            self.lattice(places, tile);
+        }
         tile.middle = self.middle;
         let last = self.last.as_dvec3() / UNIT;
         let ray = |lane: usize| {
@@ -171,7 +107,7 @@ impl Walk {
         };
         let mut whole = Within::NOWHERE;
         if self.is_parallel {
-            // Places are affine over the tile: the greatest and the least are at its corners.
+            // TilePlaces are affine over the tile: the greatest and the least are at its corners.
             let corners = [0, SIDE - 1, LANES - SIDE, LANES - 1].map(|lane| ray(lane)[0]);
             let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
             let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
@@ -184,6 +120,23 @@ impl Walk {
         let [some, all] = whole.samples(self.middle);
         tile.some = [some[0].max(self.nearest), some[1]];
         tile.all = [all[0].max(self.nearest), all[1]];
+        if places.are_scattered() && !self.is_parallel {
+            self.lattice(places, tile);
+        }
+    }
+
+    /// Sets the rays of a tile that has been entered where they are, if they are scattered.
+    pub(crate) fn scatter(&self, places: &TilePlaces, tile: &mut Tile) {
+        if places.are_scattered() {
+            self.places.scatter(places, &mut tile.at);
+            self.steps.scatter(places, &mut tile.step);
+        }
+    }
+
+    #[inline]
+    fn lattice(&self, places: &TilePlaces, tile: &mut Tile) {
+        self.places.tile(places.first, places.apart, &mut tile.at);
+        self.steps.tile(places.first, places.apart, &mut tile.step);
     }
 
     /// Whether a ray of a tile is in the grid at a sample.

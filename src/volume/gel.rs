@@ -81,7 +81,7 @@ impl<T: Texel> Texels<T> {
     pub fn make(
         size: [usize; 3],
         holds: impl Fn([usize; 3]) -> bool + Sync,
-        made_of: impl Fill,
+        made_of: &impl Fill,
     ) -> Self {
         let counts = size.map(|n| n.div_ceil(CELLS));
         let [nx, ny, nz] = counts;
@@ -264,7 +264,7 @@ impl GelBricks {
         kind: TexelKind,
         size: [usize; 3],
         holds: impl Fn([usize; 3]) -> bool + Sync,
-        made_of: impl Fill,
+        made_of: &impl Fill,
     ) -> Self {
         match kind {
             TexelKind::Auto | TexelKind::F32 => Self::F32(Texels::make(size, holds, made_of)),

@@ -143,7 +143,9 @@ impl Gradients {
         match &self.to_world {
             ToWorld::Scale(scale) => {
                 for (made, scale) in made.iter_mut().zip(scale) {
-                    made.iter_mut().for_each(|made| *made *= scale);
+                    for made in made {
+                        *made *= scale;
+                    }
                 }
             }
             ToWorld::Matrix(matrix) => {

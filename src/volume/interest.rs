@@ -106,13 +106,9 @@ mod tests {
             brick.iter().any(|alpha| *alpha > 0.0)
         });
         let interest = Interest::of(&opacity, kind);
-        let gel = Texels::<T>::make(
-            size,
-            |_| true,
-            |first: [usize; 3], row: &mut [Vec4]| {
-                row.iter_mut().enumerate().for_each(|(x, texel)| texel.w = voxels[at(first) + x]);
-            },
-        );
+        let gel = Texels::<T>::make(size, |_| true, &|first: [usize; 3], row: &mut [Vec4]| {
+            row.iter_mut().enumerate().for_each(|(x, texel)| texel.w = voxels[at(first) + x]);
+        });
         for (brick, entry) in interest.table.iter().enumerate() {
             let expected = gel.interesting_cells(brick as u32);
             assert_eq!(interest.holds(brick), expected != [0; CELLS]);

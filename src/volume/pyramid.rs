@@ -114,6 +114,13 @@ impl<'a> PyramidSlices<'a> {
         self.near?.holds(reaching, cell)
     }
 
+    /// The numbers of bricks, and for the numbered ones which of their cells have an interesting one within reach, as
+    /// [`reaching`](Self::reaching) tells; `None` of a pyramid that is not looked around in.
+    #[must_use]
+    pub(crate) fn near(self, reaching: usize) -> Option<(&'a [u32], &'a [[u64; CELLS]])> {
+        self.near.map(|near| near.within(reaching))
+    }
+
     /// Whether a cell may be seen, of a pyramid that was made of cells.
     #[must_use]
     #[inline]
@@ -123,6 +130,26 @@ impl<'a> PyramidSlices<'a> {
         let words = self.table.get((z * ny + y) * nx + x).and_then(|&brick| self.words(brick));
         let [x, y, z] = cell.map(|n| n % CELLS);
         words.is_some_and(|words| words[z] >> (CELLS * y + x) & 1 == 1)
+    }
+
+    /// Whether any of the cells from `low` to `high`, both among them, may be seen, of a pyramid that was made of cells.
+    #[must_use]
+    #[inline]
+    pub(crate) fn shows_any(self, low: [usize; 3], high: [usize; 3]) -> bool {
+        let brick = low.map(|n| n / CELLS);
+        if brick != high.map(|n| n / CELLS) {
+            let [x, y, z] = std::array::from_fn(|axis| low[axis]..=high[axis]);
+            return z
+                .into_iter()
+                .any(|z| y.clone().any(|y| x.clone().any(|x| self.shows([x, y, z]))));
+        }
+        let [nx, ny, _] = self.bricks();
+        let stored = self.table.get((brick[2] * ny + brick[1]) * nx + brick[0]);
+        let Some(words) = stored.and_then(|&stored| self.words(stored)) else { return false };
+        let ([x, y, z], [x1, y1, z1]) = (low.map(|n| n % CELLS), high.map(|n| n % CELLS));
+        let row = (0xff_u64 >> (CELLS - 1 - (x1 - x))) << x;
+        let slice = (y..=y1).fold(0, |bits, y| bits | row << (CELLS * y));
+        words[z..=z1].iter().any(|word| word & slice != 0)
     }
 
     /// The interesting cells of a stored brick: bit `8 y + x` of word `z`; `None` for one that is not stored.
@@ -184,7 +211,7 @@ mod tests {
                 }
             }
         };
-        let pyramid = Pyramid::of(&Texels::<[f32; 4]>::make(size, |_| true, fill));
+        let pyramid = Pyramid::of(&Texels::<[f32; 4]>::make(size, |_| true, &fill));
         // A voxel is a corner of eight cells.
         let cells = full.iter().flat_map(|voxel| {
             (0..8).map(|n| std::array::from_fn(|axis| voxel[axis] - (n >> axis & 1)))
@@ -210,7 +237,7 @@ mod tests {
                 row[2] = Vec4::ONE;
             }
         };
-        let gel = Texels::<[f32; 4]>::make([8; 3], |_| true, fill);
+        let gel = Texels::<[f32; 4]>::make([8; 3], |_| true, &fill);
         let expected = [1 << 1 | 1 << 2 | 1 << 9 | 1 << 10, 0, 0, 0, 0, 0, 0, 0];
         assert_eq!(Pyramid::of(&gel).0.cells, [expected]);
     }

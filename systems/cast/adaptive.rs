@@ -8,11 +8,12 @@
 
 use rayon::prelude::*;
 
-use super::band::{self, Band, cut};
-use super::lanes::{LANES, Lanes, Packet, SIDE};
+use super::band::{Band, cut};
+use super::gathered::cast_band;
+use super::lanes::Lanes;
 use super::level::Regions;
 use super::preview::Preview;
-use super::targets::{Caster, Crossed, Outlines, RayColors};
+use super::targets::{Caster, Crossed, Outlines};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::schedule::Watch;
@@ -222,54 +223,6 @@ fn cast_bands(
         counts += counted;
     }
     Ok(counts)
-}
-
-/// Packets next to one another in a band: what is empty for all of them is found once.
-#[derive(Clone, Copy)]
-struct Group {
-    /// Positions along its side.
-    side: usize,
-    /// Positions between the rays of a packet that is as large.
-    apart: usize,
-}
-
-impl Group {
-    /// That of packets of rays `step` positions apart; `None` where a band is not as high, or as far from square.
-    fn of(step: usize) -> Option<Self> {
-        let side = band::LEAST;
-        let reach = side - step;
-        (step == POSITIONS || step == 2 * POSITIONS)
-            .then(|| Self { side, apart: reach.div_ceil(SIDE - 1) })
-    }
-}
-
-/// Casts the wanted rays of a band, packet by packet.
-fn cast_band<C: Caster>(
-    band: &mut Band<'_>,
-    layout: &Layout,
-    step: usize,
-    wanted: &impl Fn(usize, usize) -> Lanes,
-    caster: &C,
-) {
-    let mut scratch = C::Scratch::default();
-    let mut rays = [RayColors::default(); LANES];
-    let place = |i: usize, j: usize| [i, j].map(|n| n as i64 - layout.margin as i64);
-    let group = Group::of(step);
-    let mut scouted = usize::MAX;
-    band.packets(layout, step, wanted, |band, [i, j], wanted| {
-        if let Some(Group { side, apart }) = group
-            && i / side != scouted
-        {
-            scouted = i / side;
-            let first = place(scouted * side, band.top());
-            let scout = Packet { first, step: apart, wanted: Lanes::MAX };
-            caster.scout(&scout, &mut scratch, &mut band.counts);
-        }
-        let first = place(i, j);
-        let packet = Packet { first, step, wanted };
-        caster.cast(&packet, &mut rays, &mut scratch, &mut band.counts);
-        band.write(layout, ([i, j], step), wanted, &rays);
-    });
 }
 
 /// The greatest range of any channel over four corners.

@@ -113,18 +113,18 @@ impl Band<'_> {
         self.opened[layout.place(i, j - self.top).1] != NONE
     }
 
-    /// Keeps what the `wanted` rays of a packet saw whose first is at position `(i, j)`, with `step` positions between them.
+    /// Keeps what the `wanted` rays of a packet saw, of which `at` gives the positions.
     #[inline]
     pub fn write(
         &mut self,
         layout: &Layout,
-        ([i, j], step): ([usize; 2], usize),
+        at: impl Fn(usize) -> [usize; 2],
         wanted: Lanes,
         rays: &[RayColors; LANES],
     ) {
         for lane in each(wanted) {
-            let (x, y) = (i + lane % SIDE * step, j - self.top + lane / SIDE * step);
-            let (within, block) = layout.place(x, y);
+            let [x, y] = at(lane);
+            let (within, block) = layout.place(x, y - self.top);
             let ray = &rays[lane];
             for (part, color) in
                 self.colors.iter_mut().zip([&ray.full, &ray.attenuated, &ray.geometric])

@@ -105,6 +105,12 @@ impl Stretch {
         Self { from, to: std::array::from_fn(|axis| middle[axis] + half[axis]) }
     }
 
+    /// The fixed-point indices of its ends.
+    #[inline]
+    pub fn ends(&self) -> [[i64; 3]; 2] {
+        [self.from, self.to]
+    }
+
     /// The fixed-point index a part of the way along it, 0..=1.
     #[inline]
     pub fn at(&self, part: f64) -> [i64; 3] {
@@ -133,9 +139,7 @@ pub fn index(place: [i64; 3]) -> DVec3 {
 
 /// How far from its samples a stretch of any ray of a tile reaches, cells.
 pub fn reach(tile: &Tile) -> f64 {
-    // Steps are affine over the tile: the greatest is at a corner.
-    let corners = [0, 3, LANES - 4, LANES - 1];
-    let steps = (0..3).flat_map(|axis| corners.map(|lane| tile.step[axis][lane].unsigned_abs()));
+    let steps = tile.step.as_flattened().iter().map(|step| step.unsigned_abs());
     (steps.max().unwrap_or(0) / 2 + 2) as f64 / (1_u64 << FRACTION_BITS) as f64
 }
 

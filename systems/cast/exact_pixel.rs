@@ -29,7 +29,7 @@ pub fn exact_pixel<C: Caster>(
             let wanted = (0..LANES).filter(held).fold(0, |set, lane| set | (1 as Lanes) << lane);
             let place = |pixel: usize, at: usize| (pixel * POSITIONS + at) as i64 - reach as i64;
             caster.cast(
-                &Packet { first: [place(x, i), place(y, j)], step: 1, wanted },
+                &Packet::new([place(x, i), place(y, j)], 1, wanted),
                 &mut rays,
                 scratch,
                 counts,

@@ -1,5 +1,6 @@
 //! Sixteen rays side by side: a tile of four by four neighbours on the lattice, at the same sample at the same time.
 
+pub(crate) use crate::view::walk::TilePlaces;
 pub use crate::view::walk::{LANES, SIDE};
 
 /// A set of a tile's rays: bit n is ray n, at `(n mod 4, n / 4)`.
@@ -20,18 +21,23 @@ pub fn each(mut lanes: Lanes) -> impl Iterator<Item = usize> {
 /// The rays that are cast together.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Packet {
-    /// The position of ray 0, counted from the middle of pixel (0, 0).
-    pub first: [i64; 2],
-    /// Positions from each ray to the next: what each stands for.
+    /// Where they are.
+    pub places: TilePlaces,
+    /// Positions between neighbouring rays of their level: what each stands for.
     pub step: usize,
     /// Which rays are wanted.
     pub wanted: Lanes,
 }
 
 impl Packet {
+    /// Rays `step` positions apart, the first of them at `first`, counted from the middle of pixel (0, 0).
+    pub fn new(first: [i64; 2], step: usize, wanted: Lanes) -> Self {
+        Self { places: TilePlaces::lattice(first, step), step, wanted }
+    }
+
     /// The position of a ray, counted from the middle of pixel (0, 0).
+    #[inline]
     pub fn position(&self, lane: usize) -> [i64; 2] {
-        let [x, y] = [lane % SIDE, lane / SIDE].map(|n| (n * self.step) as i64);
-        [self.first[0] + x, self.first[1] + y]
+        self.places.position(lane)
     }
 }

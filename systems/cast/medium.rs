@@ -23,7 +23,7 @@ use crate::volume::pyramid::{BLOCK, PyramidSlices};
 /// What a volume is at samples: gel, or values that are classified there.
 pub trait Source: Sync {
     /// The cells in which alone it is met; `None`: as far around them as it [reaches](Self::reach), or anywhere.
-    fn cells(&self) -> Option<Cells<'_>>;
+    fn cells(&self, tile: &Tile) -> Option<Cells<'_>>;
 
     /// Which of `lanes` (all inside the grid, and in such cells) meet anything at sample `k`, and what: associated RGBA per
     /// opacity unit; of its reflected part `fade` is left, slabs are so many opacity units thick, and there is room for what
@@ -51,7 +51,7 @@ pub trait Source: Sync {
 
 impl<T: Texel> Source for kernel::GelSlices<'_, T> {
     #[inline]
-    fn cells(&self) -> Option<Cells<'_>> {
+    fn cells(&self, _: &Tile) -> Option<Cells<'_>> {
         Some(Self::cells(self))
     }
 
@@ -192,7 +192,7 @@ impl<S: Source> Media for Medium<'_, S> {
 
     #[inline(always)]
     fn enter(&self, packet: &Packet, entered: &mut Entered) -> [i64; 2] {
-        self.walk.enter(packet.first, packet.step as i64, &mut entered.tile);
+        self.walk.enter(&packet.places, &mut entered.tile);
         if entered.tile.is_empty() {
             return entered.tile.some;
         }
@@ -204,6 +204,7 @@ impl<S: Source> Media for Medium<'_, S> {
             entered.crossings.begin();
         }
         entered.bundle = Bundle::of(&entered.tile, self.pyramid, reach);
+        self.walk.scatter(&packet.places, &mut entered.tile);
         entered.ratios = [self.ratio; LANES];
         if !self.walk.is_parallel() {
             entered.ratios = std::array::from_fn(|lane| {
@@ -243,7 +244,7 @@ impl<S: Source> Media for Medium<'_, S> {
                 continue;
             }
             k = self.leap(entered, k, counts);
-            let Some(cells) = self.source.cells() else { break };
+            let Some(cells) = self.source.cells(&entered.tile) else { break };
             if k < entered.tile.some[1] {
                 self.look(simd, (entered, cells), k, counts);
             }

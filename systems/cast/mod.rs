@@ -18,6 +18,7 @@ mod caster;
 mod crossing;
 mod cue;
 mod exact_pixel;
+mod gathered;
 mod inputs;
 mod integrated;
 mod judge;

@@ -78,7 +78,8 @@ impl<'a> Projections<'a> {
     pub(crate) fn enter(&self, packet: &Packet, entered: &mut Vec<Tile>) {
         entered.resize_with(self.each.len(), Tile::default);
         for (projected, tile) in self.each.iter().zip(entered) {
-            projected.walk.enter(packet.first, packet.step as i64, tile);
+            projected.walk.enter(&packet.places, tile);
+            projected.walk.scatter(&packet.places, tile);
         }
     }
 

@@ -82,9 +82,10 @@ impl Several<'_> {
                 parts.push(slab(dust.join(Vec4::ZERO, world), ratio));
             }
             let within = &mut within.entered;
-            parts.push(with_medium!(medium, inner => match bare {
-                true => inner.bare(within, k, lane),
-                false => inner.slab(within, k, lane),
+            parts.push(with_medium!(medium, inner => if bare {
+                inner.bare(within, k, lane)
+            } else {
+                inner.slab(within, k, lane)
             }));
         }
         overlap(parts)

@@ -1,8 +1,9 @@
 //! Values as rays meet them: interpolated, and classified, cut, shaded and shadowed at the sample (§8: "better reconstruction").
 
+mod look;
+
 use fearless_simd::{Level, Simd};
-use glam::{DAffine3, DVec3, Vec3, Vec4};
-use hecs::Entity;
+use glam::{DAffine3, DVec3, Vec4};
 
 use super::crossing::{self, CrossedSurface, Crossings, Sheet, Stretch, index, spot};
 use super::inputs::StatedValues;
@@ -11,19 +12,14 @@ use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
 use super::window::{Cells, Window};
 use crate::light::shading::{Lamp, Lamps, Reflectance};
-use crate::light::side_by_side::{self, Lighting};
 use crate::light::strength::LightStrength;
-use crate::view::composite::{recolor, thicken};
 use crate::view::walk::{FRACTION_BITS, Tile};
 use crate::volume::classification::{Classifier, SharpContour};
-use crate::volume::clipping::{Cut, Section};
+use crate::volume::clipping::Cut;
 use crate::volume::field::{Field, Sampled, Spot};
 use crate::volume::gradients::normal;
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::PyramidSlices;
-
-/// Voxels under a cut that are shaded by its normal alone: those of the slab that it is in.
-const CUT_DEEP: f64 = 0.5;
 
 /// The scalars of one volume, and how they look.
 pub struct Values<'a> {
@@ -36,6 +32,8 @@ pub struct Values<'a> {
     classifier: Classifier,
     /// Contours without thickness.
     surfaces: Vec<SharpContour>,
+    /// Whether there is anything else to be seen.
+    has_gel: bool,
     /// Whether slabs are integrated, from one end to the other.
     integrated: bool,
     cut: Option<Cut>,
@@ -58,6 +56,7 @@ impl<'a> Values<'a> {
         let classifier = Classifier::new(classify, material, unit);
         Self {
             surfaces: classifier.surfaces(),
+            has_gel: classifier.has_gel(),
             integrated: stated.integrate && classifier.integrates(),
             classifier,
             field: Field::new(scalars, grid, *filter),
@@ -84,104 +83,30 @@ impl<'a> Values<'a> {
         self.integrated || !self.surfaces.is_empty()
     }
 
-    /// Whether what a sample shows is told by its value and gradient alone, and by nothing about its place or slab.
-    fn is_plain(&self) -> bool {
-        !self.integrated && self.cut.is_none() && self.strengths.iter().all(Option::is_none)
-    }
-
-    /// [`look`](Self::look) for samples of the rays `met`, in their order, that are [plain](Self::is_plain): side by side, to the
-    /// last bit the same.
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
-    #[inline(always)]
-    fn look_at_all(
-        &self,
-        sampled: &[Sampled; LANES],
-        (met, fade): (Lanes, f32),
-        seen: &mut [Vec4; LANES],
-    ) {
-        let mut values = [0.0; LANES];
-        let mut gradients = [[0.0; LANES]; 3];
-        for (at, sampled) in sampled.iter().enumerate() {
-            values[at] = sampled.value;
-            side_by_side::set(&mut gradients, at, Vec3::from(sampled.gradient));
-        }
-        let alphas = self.classifier.opacities(&values, &gradients);
-        let colors = self.classifier.only_color().map(side_by_side::all).unwrap_or_else(|| {
-            let mut colors = [[0.0; LANES]; 3];
-            for at in (0..LANES).filter(|&at| alphas[at] > 0.0) {
-                let gradient = side_by_side::one(&gradients, at).to_array();
-                side_by_side::set(&mut colors, at, self.classifier.color(values[at], gradient));
-            }
-            colors
-        });
-        let lighting = Lighting { ambient: 0.0, lamps: &self.all_lamps, how: self.how };
-        let reflected = lighting.sent(&colors, &side_by_side::normals(&gradients));
-        for (at, lane) in each(met).enumerate() {
-            let reflected = side_by_side::one(&reflected, at);
-            let color = side_by_side::one(&colors, at);
-            let lit = self.lit(color, reflected, fade, alphas[at]);
-            seen[lane] = if alphas[at] > 0.0 { lit } else { Vec4::ZERO };
-        }
-    }
-
-    /// Associated RGBA per opacity unit of a sample that stands for a slab; of its reflected part `fade` is left.
-    fn look(
-        &self,
-        (sampled, slab): (&Sampled, Option<Ends>),
-        ray: impl FnOnce() -> [DVec3; 2],
-        fade: f32,
-    ) -> Vec4 {
-        let Sampled { value, gradient } = *sampled;
-        let integral = slab.filter(|slab| slab.are_finite(value));
-        let integral = integral.map(|slab| slab.integral(&self.classifier, sampled));
-        let alpha =
-            integral.map_or_else(|| self.classifier.opacity(value, gradient), |(_, alpha)| alpha);
-        if alpha <= 0.0 {
-            return Vec4::ZERO;
-        }
-        let color =
-            integral.map_or_else(|| self.classifier.color(value, gradient), |(color, _)| color);
-        if self.cut.is_none() && self.strengths.iter().all(Option::is_none) {
-            let reflected = self.reflected(color, normal(gradient), DVec3::ZERO);
-            return self.lit(color, reflected, fade, alpha);
-        }
-        let [world, way] = ray();
-        let section = self.cut.as_ref().map(|cut| cut.at(world));
-        let normal = section.map_or(normal(gradient), |s| s.turned(normal(gradient), CUT_DEEP));
-        let whole = self.lit(color, self.reflected(color, normal, world), fade, alpha);
-        section.map_or(whole, |section| part_of(whole, section, way))
-    }
-
-    /// Which rays may meet something as far from a sample as is looked.
+    /// Of rays that may meet something as far from a sample as is looked, those whose stretch does.
     fn near(&self, tile: &Tile, k: i64, lanes: Lanes) -> Lanes {
-        let Some(pyramid) = self.pyramid else { return lanes };
-        let near = |reaching: usize, lane: usize| {
-            let cell = tile.at_sample(lane, k).map(|place| place >> FRACTION_BITS);
-            pyramid.is_near(reaching, cell) == Some(true)
-        };
-        let set = |set: Lanes, lane: usize| set | 1 << lane;
-        if !self.looks_around() {
+        let Some(pyramid) = self.pyramid.filter(|_| self.looks_around()) else { return lanes };
+        if PyramidSlices::reaching(crossing::reach(tile)).is_none() {
             return lanes;
         }
-        match PyramidSlices::reaching(crossing::reach(tile)) {
-            Some(reaching) => each(lanes)
-                .filter(|&lane| near(reaching, lane))
-                .filter(|&lane| self.passes(pyramid, &Stretch::of(tile, lane, k)))
-                .fold(0, set),
-            None => lanes,
-        }
+        each(lanes)
+            .filter(|&lane| self.passes(pyramid, &Stretch::of(tile, lane, k)))
+            .fold(0, |set, lane| set | 1 << lane)
     }
 
     /// Whether a stretch passes cells that may be seen; those that it cannot leave are asked.
+    #[inline]
     fn passes(&self, pyramid: PyramidSlices<'_>, stretch: &Stretch) -> bool {
-        let cell = |part: f64, axis: usize| {
-            (stretch.at(part)[axis] >> FRACTION_BITS).clamp(0, self.size[axis] as i64 - 1) as usize
+        let ends = stretch.ends();
+        let cell = |axis: usize, place: i64| {
+            (place >> FRACTION_BITS).clamp(0, self.size[axis] as i64 - 1) as usize
         };
-        let [x, y, z] = std::array::from_fn(|axis| {
-            let ends = [cell(0.0, axis), cell(1.0, axis)];
-            ends[0].min(ends[1])..=ends[0].max(ends[1])
-        });
-        z.into_iter().any(|z| y.clone().any(|y| x.clone().any(|x| pyramid.shows([x, y, z]))))
+        let sorted = |axis: usize| {
+            let [a, b] = ends.map(|end| end[axis]);
+            [cell(axis, a.min(b)), cell(axis, a.max(b))]
+        };
+        let cells = [sorted(0), sorted(1), sorted(2)];
+        pyramid.shows_any(cells.map(|cell| cell[0]), cells.map(|cell| cell[1]))
     }
 
     /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; `middle` is the value at
@@ -223,34 +148,6 @@ impl<'a> Values<'a> {
         *seen = slab;
         sheet
     }
-
-    /// What comes back of all lights.
-    fn reflected(&self, color: Vec3, normal: Vec3, world: DVec3) -> Vec3 {
-        let of = |lamp: &Lamp| lamp.reflected(color, normal, &self.how);
-        let plain: Vec3 = self.lamps.plain.iter().map(of).sum();
-        let lights = self.lamps.shadowed.iter().zip(self.strengths);
-        lights.fold(plain, |sum, ((_, lamp), strength): (&(Entity, Lamp), _)| {
-            let beta = strength.as_ref().map_or(1.0, |strength| {
-                strength.at(world + lamp.toward.as_dvec3() * strength.bias())
-            });
-            sum + of(lamp) * beta
-        })
-    }
-
-    fn lit(&self, color: Vec3, reflected: Vec3, fade: f32, alpha: f32) -> Vec4 {
-        ((color * self.how.ambient + reflected * fade) * alpha).extend(alpha)
-    }
-}
-
-/// What a cut leaves of a slab, as a thinner one of the whole.
-fn part_of(whole: Vec4, section: Section, way: DVec3) -> Vec4 {
-    let left = section.left(way);
-    if left >= 1.0 {
-        return whole;
-    }
-    let opacity = f64::from(whole.w);
-    let thin = thicken(opacity, left);
-    (whole.truncate() * recolor(opacity, thin, left) as f32).extend(thin as f32)
 }
 
 impl Source for Values<'_> {
@@ -262,10 +159,15 @@ impl Source for Values<'_> {
         if self.looks_around() { crossing::reach(tile) } else { 0.0 }
     }
 
-    fn cells(&self) -> Option<Cells<'_>> {
-        let pyramid = self.pyramid.filter(|_| !self.looks_around())?;
-        let words = Some(pyramid.all_words());
-        Some(Cells { counts: pyramid.bricks(), table: pyramid.table(), words })
+    fn cells(&self, tile: &Tile) -> Option<Cells<'_>> {
+        let pyramid = self.pyramid?;
+        let counts = pyramid.bricks();
+        if self.looks_around() {
+            let reaching = PyramidSlices::reaching(crossing::reach(tile))?;
+            let (table, words) = pyramid.near(reaching)?;
+            return Some(Cells { counts, table, words: Some(words) });
+        }
+        Some(Cells { counts, table: pyramid.table(), words: Some(pyramid.all_words()) })
     }
 
     fn meet<I: Simd>(
@@ -282,8 +184,16 @@ impl Source for Values<'_> {
         let mut spots = [Spot::default(); LANES];
         let middles = each(met).map(|lane| spot(tile.at_sample(lane, k)));
         let found = spots.iter_mut().zip(middles).map(|(made, spot)| *made = spot).count();
-        self.field.sample(level, &spots[..found], &mut sampled);
-        if self.is_plain() {
+        if self.has_gel {
+            self.field.sample(level, &spots[..found], &mut sampled);
+        } else {
+            let mut values = [0.0; LANES];
+            self.field.values(level, &spots[..found], &mut values);
+            sampled.iter_mut().zip(values).for_each(|(sampled, value)| sampled.value = value);
+        }
+        if !self.has_gel {
+            each(met).for_each(|lane| seen[lane] = Vec4::ZERO);
+        } else if self.is_plain() {
             simd.vectorize(|| self.look_at_all(&sampled, (met, fade), seen));
         } else {
             let slabs = if self.integrated {

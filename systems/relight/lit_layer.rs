@@ -77,7 +77,7 @@ impl LitLayer<'_> {
     }
 }
 
-impl Fill for &LitLayer<'_> {
+impl Fill for LitLayer<'_> {
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
     fn fill<T: Texel>(&self, _: [usize; 3], brick: [usize; 3], texels: &mut [T; TEXELS]) {

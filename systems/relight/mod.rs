@@ -141,7 +141,7 @@ impl Inputs {
                 };
                 let kind =
                     if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
-                let lit = GelBricks::make(kind, grid.size, holds, fill);
+                let lit = GelBricks::make(kind, grid.size, holds, &fill);
                 Ok(Gel { lit, ambient: None, opacity: None })
             }
             Unlit::Layer(opacity, colors) => {

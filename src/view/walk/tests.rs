@@ -29,7 +29,7 @@ fn a_tile_is_where_its_rays_are() {
             let camera = Camera::new(&view, &extent());
             let walk = Walk::new(&grid, &camera, 0.25).unwrap().unwrap();
             let mut tile = Tile::default();
-            walk.enter([755, 770], 3, &mut tile);
+            walk.enter(&TilePlaces::lattice([755, 770], 3), &mut tile);
             assert!(tile.some[0] <= tile.all[0] && tile.all[0] < tile.all[1]);
             assert!(tile.all[1] <= tile.some[1] && !tile.is_empty());
             for (lane, k) in (0..LANES).flat_map(|lane| (-90..90).map(move |k| (lane, k))) {
@@ -52,8 +52,8 @@ fn a_ray_is_where_it_is_in_whatever_tile_it_lies() {
     let camera = camera(23.0, 41.0, 7.0);
     let walk = Walk::new(&grid, &camera, 0.25).unwrap().unwrap();
     let (mut fine, mut coarse) = (Tile::default(), Tile::default());
-    walk.enter([704, 640], 8, &mut coarse);
-    walk.enter([720, 656], 2, &mut fine);
+    walk.enter(&TilePlaces::lattice([704, 640], 8), &mut coarse);
+    walk.enter(&TilePlaces::lattice([720, 656], 2), &mut fine);
     // (2, 2) of the coarse tile is (0, 0) of the fine one.
     for axis in 0..3 {
         assert_eq!(coarse.at[axis][10], fine.at[axis][0]);
@@ -69,9 +69,9 @@ fn a_tile_beside_the_domain_meets_no_sample() {
     let walk = Walk::new(&grid, &camera, 1.0).unwrap().unwrap();
     let mut tile = Tile::default();
     // Pixels are as large as voxels; the grid's face is at x = 2, which is window 42, position 4 · 41.5.
-    walk.enter([167, 158], 1, &mut tile);
+    walk.enter(&TilePlaces::lattice([167, 158], 1), &mut tile);
     assert!(tile.is_empty());
-    walk.enter([166, 158], 1, &mut tile);
+    walk.enter(&TilePlaces::lattice([166, 158], 1), &mut tile);
     let held = |lane| (-9..9).filter(|&k| walk.holds(&tile, lane, k)).count();
     assert_eq!([held(0), held(1)], [4, 0]);
 }

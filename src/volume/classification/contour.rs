@@ -74,6 +74,11 @@ impl Contours {
         self.0.iter().filter(|line| line.is_surface() && line.opacity > 0.0).map(surface).collect()
     }
 
+    /// Whether one of them has some thickness.
+    pub fn has_gel(&self) -> bool {
+        self.0.iter().any(|line| !line.is_surface() && line.opacity > 0.0)
+    }
+
     /// Contours of a volume of opacity unit `unit`; those without a colour of their own take `color`.
     pub fn new(stated: &[Contour], color: DVec3, unit: f64) -> Self {
         let line = |contour: &Contour| {

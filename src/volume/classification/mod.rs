@@ -141,6 +141,15 @@ impl Classifier {
         }
     }
 
+    /// Whether anything but [surfaces](Self::surfaces) may be seen.
+    #[must_use]
+    pub(crate) fn has_gel(&self) -> bool {
+        match &self.how {
+            How::Contours(contours) => contours.has_gel(),
+            _ => true,
+        }
+    }
+
     /// Whether slabs may be integrated [`along`](Self::along): a transfer function, of a scalar alone.
     #[must_use]
     pub fn integrates(&self) -> bool {

@@ -2,6 +2,14 @@
 //!
 //! Everything here is in plain arrays, and compiled anew within each instruction set of whoever calls it.
 #![allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#![allow(
+    clippy::needless_bitwise_bool,
+    reason = "side by side nothing is left out: a choice is a mask, and no jump"
+)]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "several arrays of as many numbers, so that loops run in lanes"
+)]
 
 use super::contour::Contours;
 use super::curve::Curve;

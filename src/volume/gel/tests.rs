@@ -16,7 +16,7 @@ fn gel<T: Texel>() -> Texels<T> {
             *texel = linear(Vec3::new((x + i) as f32, y as f32, z as f32));
         }
     };
-    Texels::make(SIZE, |brick| brick != [1, 0, 0], fill)
+    Texels::make(SIZE, |brick| brick != [1, 0, 0], &fill)
 }
 
 fn error<T: Texel>() -> f32 {
@@ -66,7 +66,7 @@ fn a_cell_is_interesting_if_one_of_its_eight_texels_is() {
             }
         }
     };
-    let gel = Texels::<[f32; 4]>::make([16; 3], |_| true, fill);
+    let gel = Texels::<[f32; 4]>::make([16; 3], |_| true, &fill);
     let mut cells = Vec::new();
     for (at, &brick) in gel.table().iter().enumerate() {
         for (z, word) in gel.interesting_cells(brick).into_iter().enumerate() {

@@ -51,6 +51,11 @@ impl Near {
         REACHES.iter().position(|&within| reach <= within as f64)
     }
 
+    /// The numbers of bricks, and the bits of those that have one.
+    pub fn within(&self, reaching: usize) -> (&[u32], &[Bits]) {
+        (&self.table, &self.within[reaching])
+    }
+
     /// Whether an interesting cell is near a cell, which counts as the nearest one inside; `None`: none is near its brick.
     #[inline]
     pub fn holds(&self, reaching: usize, cell: [i64; 3]) -> Option<bool> {

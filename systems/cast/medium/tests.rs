@@ -11,6 +11,7 @@ use super::*;
 use crate::components::View;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
+use crate::view::walk::TilePlaces;
 use crate::volume::field::tests::levels;
 use crate::volume::gel::{CELLS, Texels};
 use crate::volume::grid::Grid;
@@ -98,7 +99,7 @@ impl Case {
                 (0..n[0] * n[1] * n[2]).map(|i| [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])]);
             all.any(|at| holds(std::array::from_fn(|axis| first[axis] + at[axis])))
         };
-        Texels::make(size, stored, fill)
+        Texels::make(size, stored, &fill)
     }
 }
 
@@ -151,10 +152,12 @@ fn packets() -> impl Strategy<Value = Packet> {
     let anywhere = (-8..20_i64, -8..20_i64).prop_map(|(i, j)| [i, j]);
     let first = prop_oneof![4 => anywhere, 1 => Just([8, 8])];
     let step = (0..4_u32).prop_map(|shift| 1_usize << shift);
-    (first, step, any::<u16>()).prop_map(|(first, step, some)| Packet {
-        first,
-        step,
-        wanted: some | 1,
+    let off = proptest::array::uniform16([0..24_u16, 0..24_u16]);
+    let off = prop_oneof![off.clone().prop_map(Some), off.prop_map(|_| None)];
+    (first, step, any::<u16>(), off).prop_map(|(first, step, some, off)| {
+        let packet = Packet::new(first, step, some | 1);
+        let scattered = off.map(|off| TilePlaces::scattered(first, off));
+        Packet { places: scattered.unwrap_or(packet.places), ..packet }
     })
 }
 
@@ -172,7 +175,8 @@ proptest! {
             dust: None,
         };
         let mut tile = Tile::default();
-        walk.enter(packet.first, packet.step as i64, &mut tile);
+        walk.enter(&packet.places, &mut tile);
+        walk.scatter(&packet.places, &mut tile);
         let anew = tile.some[0].saturating_add(i64::from(until));
         let expected = taken(&medium(None), &packet, i64::MIN, Level::baseline());
         for level in levels() {
@@ -180,7 +184,7 @@ proptest! {
         }
         // Alone, or in another tile, a ray takes what it takes among others.
         let lane = packet.wanted.trailing_zeros() as usize;
-        let alone = Packet { first: packet.position(lane), step: 1, wanted: 1 };
+        let alone = Packet::new(packet.position(lane), 1, 1);
         let some = medium(Some(pyramid.slices()));
         prop_assert_eq!(&taken(&some, &alone, anew, Level::new())[0], &expected[lane]);
     }
@@ -192,8 +196,9 @@ proptest! {
         let camera = Camera::new(&case.view, &Extent::of(grid.corners()).unwrap());
         let walk = Walk::new(&grid, &camera, case.distance).unwrap().unwrap();
         let mut tile = Tile::default();
-        walk.enter(packet.first, packet.step as i64, &mut tile);
-        let ray = camera.ray(Camera::window(packet.first));
+        walk.enter(&packet.places, &mut tile);
+        walk.scatter(&packet.places, &mut tile);
+        let ray = camera.ray(Camera::window(packet.position(0)));
         let inside = |k: i64, slack: f64| {
             let world = ray.at((k as f64 + 0.5) * case.distance);
             let index = grid.world_to_index().transform_point3(world);
