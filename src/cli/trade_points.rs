@@ -122,7 +122,7 @@ pub type Choice = (String, Vec<String>, Sampling);
 /// One knob turned at a time, wherever that changes anything; first the settings of the scene.
 pub fn singles(base: &Sampling, distance: f64) -> Vec<Choice> {
     let mut choices = vec![("as stated".to_owned(), Vec::new(), base.clone())];
-    for knob in &KNOBS {
+    for knob in KNOBS {
         for &setting in knob.range {
             let mut sampling = base.clone();
             knob.turn(&mut sampling, setting, distance);
@@ -153,7 +153,7 @@ struct Predicted {
 pub fn combinations(points: &[Point], most: usize) -> Vec<Choice> {
     let Some(base) = points.first() else { return Vec::new() };
     let mut kept = vec![Predicted { factor: 1.0, squared: 0.0, turned: Vec::new() }];
-    for knob in &KNOBS {
+    for knob in KNOBS {
         let own: Vec<usize> =
             (1..points.len()).filter(|&at| points[at].knobs == [knob.key]).collect();
         let mut next = kept.clone();

@@ -94,7 +94,7 @@ pub const NO_KNOBS: [&str; 2] = ["filter", "pixel_filter"];
 const HALF_STEPS: [f64; 2] = [2.0 / 131_072.0, 2.0 / 512.0];
 
 /// Every knob.
-pub static KNOBS: [Knob; 10] = [
+pub static KNOBS: &[Knob] = &[
     Knob {
         key: "distance_mm",
         range: &[

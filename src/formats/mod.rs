@@ -2,22 +2,12 @@
 
 mod base64;
 mod data_file;
-mod dicom;
 mod loaded;
-mod metaimage;
-mod mrc;
-mod nifti;
-mod npz;
-mod nrrd;
 mod number;
-mod numpy;
 mod part;
-mod raw;
 mod stated;
 mod stream;
 mod survey;
-mod tiff_stack;
-mod vti;
 mod vtk_file;
 
 #[cfg(test)]
@@ -65,79 +55,35 @@ pub(crate) struct Format {
 /// Bytes at the start of a file that tell its format: MRC has its word at 208, NIfTI at 344.
 const HEAD: usize = 352;
 
-/// The formats of volumes; one more is a file and a row.
-pub(crate) static FORMATS: &[Format] = &[
-    Format {
-        name: "NRRD",
-        extensions: &["nrrd", "nhdr"],
-        recognizes: Some(nrrd::recognizes),
-        read: nrrd::read,
-        promised: nrrd::promised,
-    },
-    Format {
-        name: "NIfTI",
-        extensions: &["nii", "nii.gz"],
-        recognizes: Some(nifti::recognizes),
-        read: nifti::read,
-        promised: nifti::promised,
-    },
-    Format {
-        name: "MRC or CCP4",
-        extensions: &["mrc", "mrc.gz", "map", "map.gz", "ccp4", "ccp4.gz"],
-        recognizes: Some(mrc::recognizes),
-        read: mrc::read,
-        promised: mrc::promised,
-    },
-    Format {
-        name: "DICOM",
-        extensions: &["dcm"],
-        recognizes: Some(dicom::recognizes),
-        read: dicom::read,
-        promised: dicom::promised,
-    },
-    Format {
-        name: "MetaImage",
-        extensions: &["mha", "mhd"],
-        recognizes: Some(metaimage::recognizes),
-        read: metaimage::read,
-        promised: metaimage::promised,
-    },
-    Format {
-        name: "NumPy",
-        extensions: &["npy"],
-        recognizes: Some(numpy::recognizes),
-        read: numpy::read,
-        promised: numpy::promised,
-    },
-    Format {
-        name: "NumPy archive",
-        extensions: &["npz"],
-        recognizes: Some(npz::recognizes),
-        read: npz::read,
-        promised: npz::promised,
-    },
-    Format {
-        name: "TIFF",
-        extensions: &["tif", "tiff"],
-        recognizes: Some(tiff_stack::recognizes),
-        read: tiff_stack::read,
-        promised: tiff_stack::promised,
-    },
-    Format {
-        name: "VTK ImageData",
-        extensions: &["vti"],
-        recognizes: Some(vti::recognizes),
-        read: vti::read,
-        promised: vti::promised,
-    },
-    Format {
-        name: "raw",
-        extensions: &["raw", "raw.gz"],
-        recognizes: None,
-        read: raw::read,
-        promised: raw::promised,
-    },
-];
+/// Declares the formats of volumes: a row is a file, what people call the format, how its names end, and whether the first
+/// bytes of a file tell it.
+macro_rules! formats {
+    ($($file:ident $name:literal $extensions:tt $recognizes:expr;)*) => {
+        $(mod $file;)*
+
+        /// The formats of volumes; one more is a file and a row.
+        pub(crate) static FORMATS: &[Format] = &[$(Format {
+            name: $name,
+            extensions: &$extensions,
+            recognizes: $recognizes,
+            read: $file::read,
+            promised: $file::promised,
+        }),*];
+    };
+}
+
+formats! {
+    nrrd "NRRD" ["nrrd", "nhdr"] Some(nrrd::recognizes);
+    nifti "NIfTI" ["nii", "nii.gz"] Some(nifti::recognizes);
+    mrc "MRC or CCP4" ["mrc", "mrc.gz", "map", "map.gz", "ccp4", "ccp4.gz"] Some(mrc::recognizes);
+    dicom "DICOM" ["dcm"] Some(dicom::recognizes);
+    metaimage "MetaImage" ["mha", "mhd"] Some(metaimage::recognizes);
+    numpy "NumPy" ["npy"] Some(numpy::recognizes);
+    npz "NumPy archive" ["npz"] Some(npz::recognizes);
+    tiff_stack "TIFF" ["tif", "tiff"] Some(tiff_stack::recognizes);
+    vti "VTK ImageData" ["vti"] Some(vti::recognizes);
+    raw "raw" ["raw", "raw.gz"] None;
+}
 
 /// Reads a volume of any format in `FORMATS`: by what it starts with, else by how its name ends; of a folder, the
 /// series of slices in it.

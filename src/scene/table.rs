@@ -1,4 +1,5 @@
-//! The one table of components: what a scene may state. A component more is its file and a line here, and its checks if it has any.
+//! The one table of components: what a scene may state, and how it is read. A component more is its file and a row in
+//! `components`, and its checks if it has any.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -15,12 +16,8 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use super::check::{Check, Wrong};
 use super::error::Fault;
 use super::grammar;
-use crate::components::{
-    Animate, Axes, BoundingBox, Callout, CastsShadow, Classify, Clip, DepthCue, Estimate, KNOBS,
-    Labels, Legend, Level, Light, Material, Mesh, Molecule, OrientationCube, Polygon, Projection,
-    Projects, Sampling, ScaleBar, Setting, Shaft, Smooth, Surface, Texture, Textured, Title, View,
-    Volume, Voxelize,
-};
+#[allow(clippy::wildcard_imports, reason = "a component more is no import more")]
+use crate::components::*;
 
 /// The entity that is at fault, and the sentence.
 type AtFault = (Entity, String);
@@ -38,42 +35,14 @@ pub(super) struct Row {
     check_world: fn(&Row, &mut World) -> Result<(), AtFault>,
 }
 
-/// Every component that a scene may state, in the order in which messages list them.
-pub(super) static COMPONENTS: [Row; 30] = [
-    checked::<Volume>("volume", &[]),
-    row_read_as::<Classify<Level>, Classify>("classify", &["volume"]),
-    row::<Material>("material", &["volume"]),
-    checked::<Clip>("clip", &["volume"]),
-    row::<Projection>("projection", &["volume"]),
-    checked::<Labels>("labels", &["volume"]),
-    row::<Polygon>("polygon", &[]),
-    checked::<Mesh>("mesh", &[]),
-    checked::<Molecule>("molecule", &[]),
-    row::<Surface>("surface", &["polygon", "mesh", "molecule"]),
-    row::<Smooth>("smooth", &["mesh", "molecule"]),
-    row::<Voxelize>("voxelize", &["polygon", "mesh", "molecule"]),
-    checked::<Textured>("textured", &["polygon", "mesh"]),
-    checked::<Light>("light", &[]),
-    row::<CastsShadow>("casts_shadow", &["light"]),
-    checked::<Projects>("projects", &["light"]),
-    row::<Shaft>("shaft", &["light"]),
-    checked::<Texture>("texture", &[]),
-    row::<Title>("title", &[]),
-    row::<ScaleBar>("scale_bar", &[]),
-    checked::<Legend>("legend", &[]),
-    row::<Callout>("callout", &[]),
-    row::<BoundingBox>("bounding_box", &[]),
-    row::<Axes>("axes", &[]),
-    row::<OrientationCube>("orientation_cube", &[]),
-    row::<View>("view", &[]),
-    checked::<Sampling>("sampling", &["view"]),
-    row::<DepthCue>("depth_cue", &["view"]),
-    row::<Estimate>("estimate", &["view"]),
-    checked::<Animate>(
-        "animate",
-        &["volume", "polygon", "mesh", "molecule", "light", "texture", "view"],
-    ),
-];
+/// The table, of the rows that `components` declares.
+macro_rules! table {
+    ($($how:ident<$($stated:ty),*> $key:literal $with:tt;)*) => {
+        /// Every component that a scene may state, in the order in which messages list them.
+        pub(super) static COMPONENTS: [Row; [$($key),*].len()] = [$($how::<$($stated),*>($key, &$with)),*];
+    };
+}
+components!(table);
 
 impl Row {
     /// The component that a key states.
@@ -124,11 +93,11 @@ const fn checked<T>(key: &'static str, with: &'static [&'static str]) -> Row
 where
     T: DeserializeOwned + JsonSchema + Check + Component + Clone + PartialEq + Serialize,
 {
-    row_read_as::<T, T>(key, with)
+    read_as::<T, T>(key, with)
 }
 
 /// Such a component that a scene states as a `T` and a world carries as a `W`.
-const fn row_read_as<T, W>(key: &'static str, with: &'static [&'static str]) -> Row
+const fn read_as<T, W>(key: &'static str, with: &'static [&'static str]) -> Row
 where
     T: DeserializeOwned + JsonSchema + Check + Component,
     W: Component + Clone + PartialEq + Serialize,
@@ -253,7 +222,7 @@ pub fn schema() -> Json {
 
 /// What the table of knobs says of each: its range as examples, its promise in the description.
 fn tell_knobs(schema: &mut Json) {
-    for knob in &KNOBS {
+    for knob in KNOBS {
         let Some(key) = schema.pointer_mut(&format!("/properties/{}", knob.key)) else { continue };
         let said = key.get("description").and_then(Json::as_str).unwrap_or_default();
         let description = format!("{said} {}", knob.promise);

@@ -37,7 +37,8 @@ impl Imports {
         let mut tree = Tree { modules, handed_on: BTreeMap::new() };
         for file in all {
             let own = module(&file.path);
-            let found = paths(&statements(&untested(file), true));
+            let text = untested(file);
+            let found = paths(&[statements(&text, true), rows(&text)].concat());
             let found = found.into_iter().filter_map(|path| tree.resolve(&own, &path));
             let handed = found.filter_map(|(at, rest)| Some((rest.last()?.clone(), at)));
             let handed: BTreeMap<_, _> = handed.collect();
@@ -180,6 +181,14 @@ fn statements(text: &str, handing_on: bool) -> Vec<String> {
         (line.starts_with("pub") == handing_on).then(|| part[start + 4..].replace('\n', " "))
     };
     text.split(';').filter_map(statement).collect()
+}
+
+/// What the rows of a macro `files!` hand on, each a file and the names in it.
+fn rows(text: &str) -> Vec<String> {
+    let Some((_, rows)) = text.split_once("\nfiles! {") else { return Vec::new() };
+    let rows = rows.split_once("\n}").map_or(rows, |(rows, _)| rows);
+    let names = |row: &str| Some(row.split_once('}')?.0.trim().replace('\n', " ") + "}");
+    rows.split(';').filter_map(names).collect()
 }
 
 /// The paths of some `use` statements, groups taken apart.

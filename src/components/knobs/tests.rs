@@ -15,7 +15,7 @@ fn every_key_of_sampling_is_a_knob_or_named_as_none() {
 
 #[test]
 fn each_setting_changes_its_own_key_alone_and_leaves_what_may_be_rendered() {
-    for knob in &KNOBS {
+    for knob in KNOBS {
         for &setting in knob.range {
             let stated = Sampling { distance_mm: Some(0.7), ..Sampling::default() };
             let mut turned = stated.clone();

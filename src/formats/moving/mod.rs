@@ -20,8 +20,8 @@ use crate::formats::whole::{check_writable, write_whole};
 pub use format::{By, Frames, Movie, MovingFormat, Rate, Writer};
 
 /// Every known format of moving pictures.
-pub static MOVING_FORMATS: [MovingFormat; 5] =
-    [apng::FORMAT, gif::FORMAT, y4m::FORMAT, ffmpeg::MP4, ffmpeg::WEBM];
+pub static MOVING_FORMATS: &[MovingFormat] =
+    &[apng::FORMAT, gif::FORMAT, y4m::FORMAT, ffmpeg::MP4, ffmpeg::WEBM];
 
 /// The format that a file's name says.
 #[must_use]

@@ -36,8 +36,8 @@ pub use ray_map::{ray_map_beside, write_ray_map};
 pub use weight::{Weight, weighed};
 
 /// Every known format of pictures.
-pub static PICTURE_FORMATS: [PictureFormat; 6] =
-    [png::FORMAT, exr::FORMAT, tiff::FORMAT, npy::FORMAT, jpeg::FORMAT, webp::FORMAT];
+pub static PICTURE_FORMATS: &[PictureFormat] =
+    &[png::FORMAT, exr::FORMAT, tiff::FORMAT, npy::FORMAT, jpeg::FORMAT, webp::FORMAT];
 
 /// The longest file that is read: floats of the most pixels, and as much again.
 const LONGEST_FILE: u64 = MOST_PIXELS * 32;
