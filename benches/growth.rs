@@ -1,4 +1,5 @@
-//! How preparation grows with a volume: seconds from voxels to gel, and the most memory, over the voxels' own bytes.
+//! How preparation grows with a volume: seconds from voxels to gel, and the most memory, over the voxels' own bytes and beside
+//! what the plan says before anything is made.
 //!
 //! The growing volumes are made by formula in a copy of this program each, so that the peak of one is not another's. The
 //! edits are of the head in one world: CT data where `GELRAY_DATA` is set, else the phantom. Two threads; `--quick` leaves
@@ -138,7 +139,9 @@ fn tell(grown: &Grown) {
     let mut world = world(voxels);
     let before = timed::peak_megabytes() * 1e6;
     let busy = timed::busy_seconds();
-    let rendered = Renderer::new().and_then(|renderer| renderer.render(&mut world));
+    let renderer = Renderer::new().expect("the schedule is sound");
+    let planned = planned(&renderer, &world).map(|made| before + made);
+    let rendered = renderer.render(&mut world);
     let ran = rendered.expect("a volume made by formula renders").ran;
     let prepared = ran.iter().filter(|ran| !FRAME.contains(&ran.name));
     let stages: Vec<_> = prepared
@@ -148,14 +151,23 @@ fn tell(grown: &Grown) {
         .collect();
     let frame: f64 = ran.iter().map(|ran| ran.seconds).sum();
     let seconds: f64 = prepared.map(|ran| ran.seconds).sum();
-    let peak = timed::peak_megabytes() * 1e6 / bytes;
+    let most = timed::peak_megabytes() * 1e6;
+    let (peak, [bound, expected]) = (most / bytes, planned.map(|bytes| bytes / most));
     println!(
-        "prepared in {seconds:.3} s ({} ms), with the frame {frame:.3} s, {:.2} s of all threads; most memory {peak:.2} × its voxels (before: {:.2} ×); {}",
+        "prepared in {seconds:.3} s ({} ms), with the frame {frame:.3} s, {:.2} s of all threads; most memory {peak:.2} × its voxels (before: {:.2} ×), of which the plan bounds {bound:.2} × and expects {expected:.2} ×; {}",
         stages.join(", "),
         timed::busy_seconds() - busy,
         before / bytes,
         looked_at(&mut world)
     );
+}
+
+/// The most bytes that is to be made of a world, and what is expected, as `gelray plan` has them.
+fn planned(renderer: &Renderer, world: &World) -> [f64; 2] {
+    let plans = renderer.schedule().waves().iter().flatten().map(|job| (job.plan)(world));
+    plans.fold([0.0; 2], |[most, expected], plan| {
+        [most + plan.bytes() as f64, expected + plan.expected() as f64]
+    })
 }
 
 /// How many bricks there are, how many of them are classified, and how many hold something.

@@ -5,7 +5,8 @@
 //! voxels painted once, by this program, and given to each renderer; and the scalars themselves under a light at the
 //! observer with highlights, so that every view is shaded anew. Best of three per view; ratios are medians over views of
 //! one view's ratios; errors are of the luminance over every sixth view against gelray, exact at a quarter of the
-//! distance between samples, after each picture was moved to where it fits best. `--quick` takes fewer views.
+//! distance between samples, after each picture was moved to where it fits best. `--quick` takes fewer views, and `--csv DIR`
+//! writes a file for each task that `gelray trade --points` draws beside our own choices.
 
 mod errors;
 #[path = "../limit.rs"]
@@ -107,6 +108,13 @@ impl Row {
         Spread::of(&pairs.map(|(a, b)| a / b).collect::<Vec<_>>()).median
     }
 
+    /// What `gelray trade --points` reads: a name, milliseconds a frame and decibels, medians over views.
+    fn point(&self) -> String {
+        let decibels: Vec<f64> = self.errors.iter().map(|error| error.decibels).collect();
+        let [time, decibels] = [&self.milliseconds, &decibels].map(|of| Spread::of(of).median);
+        format!("\"{}\",{time},{decibels}\n", self.name)
+    }
+
     fn print(&self, others: &[&Self]) {
         let of = |values: Vec<f64>| Spread::of(&values);
         let time = of(self.milliseconds.clone());
@@ -144,6 +152,16 @@ fn race(title: &str, scene: &str, rows: &mut [Row], folder: &Path) {
     for row in rows.iter() {
         row.print(&peers);
     }
+}
+
+/// Writes the points of a task to the folder that `--csv` names, if it does.
+fn keep_points(task: &str, rows: &[Row]) {
+    let Some(folder) = std::env::args().skip_while(|word| word != "--csv").nth(1) else { return };
+    let path = Path::new(&folder).join(format!("{task}.csv"));
+    let points: String = rows.iter().map(Row::point).collect();
+    std::fs::write(&path, format!("name,milliseconds,psnr_db\n{points}"))
+        .expect("the folder of --csv takes a file");
+    println!("points for `gelray trade --points`: {}", path.display());
 }
 
 fn every(positions: u32) -> impl Fn(&mut Sampling) {
@@ -204,6 +222,7 @@ fn main() {
     rows.extend(peer("VTK", told("pairs.raw").vtk("painted", 1.0)));
     rows.extend(peer("VTK, every second pixel", told("pairs.raw").vtk("painted", 2.0)));
     race("the same voxels, painted once", &painted, &mut rows, folder);
+    keep_points("painted", &rows);
     against_the_limit(&rows);
     let first = ours("gelray, a ray a pixel", &full, folder, every(4));
     if let Maker::Ours(ours) = &first.maker {
@@ -212,6 +231,7 @@ fn main() {
     let mut rows = vec![first, ours("gelray, adaptive", &full, folder, |_| ())];
     rows.extend(peer("VTK", told("scalars.raw").vtk("scalars", 1.0)));
     race("the whole task: shaded anew for every view", &full, &mut rows, folder);
+    keep_points("scalars", &rows);
     for row in rows.iter().filter(|row| !row.samples.is_empty()) {
         println!("{:32} of which rays {:.2} ms", row.name, Spread::of(&row.rays).median);
     }

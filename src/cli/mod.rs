@@ -38,6 +38,7 @@ mod plot;
 mod profile;
 mod profile_numbers;
 mod profile_pair;
+mod profile_resume;
 mod profile_run;
 mod profile_saved;
 mod profile_table;

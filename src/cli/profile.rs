@@ -10,7 +10,8 @@ use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::profile_pair::{self, Compared};
-use super::profile_run::{Run, Subject, profile};
+use super::profile_resume::{Begun, begun};
+use super::profile_run::Subject;
 use super::profile_saved::Profile;
 use super::steps::Steps;
 use super::{contact, outputs, profile_numbers, profile_table};
@@ -19,6 +20,7 @@ pub const EXAMPLES: &str = "\
 Examples:
   gelray profile figure_06a                          seconds, counts and bytes of each stage beside the paper's
   gelray profile scene.toml --repeat 20 --csv -o stages.csv
+  gelray profile scene.toml --repeat 100 --json -o s.json --resume    goes on where it was stopped
   gelray profile figure_06a figure_06b               two scenes by turns, and whether they differ
   gelray profile scene.toml --a sampling.stop_at=0.02 --b sampling.stop_at=0.1
   gelray profile scene.toml --json -o before.json    and with another binary after.json; then
@@ -53,6 +55,9 @@ pub struct Profiling {
     busy: bool,
     #[command(flatten)]
     form: Form,
+    /// Goes on with what -o holds of the same measurement, until there are as many runs as --repeat says
+    #[arg(long, requires = "json")]
+    resume: bool,
     /// The stages alone, without the paper's ratios, which take as long again
     #[arg(long)]
     no_ratios: bool,
@@ -109,21 +114,17 @@ fn one(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let subject = Subject::new(contact::open(scene, flags)?, flags, &[], &interrupt.watch)?;
+    let begun = begun(profiling.resume, [&subject], flags)?;
     interrupt.work_begins();
     let repeat = profiling.repeat.unwrap_or(REPEAT[0]);
     let numbers = if profiling.no_ratios { 0 } else { profile_numbers::keys().len() };
-    let steps = Steps::new(repeat as usize + 1 + numbers, flags);
-    let (runs, ended) = until_stopped(repeat, &steps, || subject.run().map(|run| [run]))?;
-    let runs: Vec<Run> = runs.into_iter().flatten().collect();
-    let mut profile = profile(&runs).ok_or(Error::Interrupted)?;
-    drop(runs);
-    let mut ended = ended;
+    let left = begun.left(repeat);
+    let steps = Steps::new(left as usize + 1 + numbers, flags);
+    let (runs, mut ended) = until_stopped(left, &steps, || subject.run().map(|run| [run]))?;
+    let [mut profile] = begun.then(runs)?;
     if ended.is_ok() && !profiling.no_ratios {
         let (keys, pairs) = (profile_numbers::keys(), (repeat as usize).max(7));
-        match profile_numbers::numbers(&subject, &profile, (&keys, pairs), &steps) {
-            Ok(numbers) => profile.numbers = numbers,
-            Err(failure) => ended = Err(failure),
-        }
+        ended = profile_numbers::add_numbers(&subject, &mut profile, (&keys, pairs), &steps);
     }
     drop(steps);
     profiling.print_one(&profile, flags)?;
@@ -142,11 +143,12 @@ fn pair(
         Subject::new(contact::open(scene, flags)?, flags, more, &interrupt.watch)
     };
     let [a, b] = [subject(scene, &profiling.a)?, subject(other, &profiling.b)?];
+    let begun: Begun<2> = begun(profiling.resume, [&a, &b], flags)?;
     interrupt.work_begins();
-    let repeat = profiling.repeat.unwrap_or(REPEAT[1]);
-    let steps = Steps::new(repeat as usize + 1, flags);
+    let left = begun.left(profiling.repeat.unwrap_or(REPEAT[1]));
+    let steps = Steps::new(left as usize + 1, flags);
     let mut turn = false;
-    let (pairs, ended) = until_stopped(repeat, &steps, || {
+    let (pairs, ended) = until_stopped(left, &steps, || {
         // Whoever is first finds the machine as the one before left it: that is shared.
         turn = !turn;
         if turn {
@@ -158,9 +160,7 @@ fn pair(
         }
     })?;
     drop(steps);
-    let (of_a, of_b): (Vec<_>, Vec<_>) = pairs.into_iter().map(|[a, b]| (a, b)).unzip();
-    let both = profile(&of_a).zip(profile(&of_b));
-    let (of_a, of_b) = both.ok_or(Error::Interrupted)?;
+    let [of_a, of_b] = begun.then(pairs)?;
     profiling.print_pair(&Compared::new(of_a, of_b, true, profiling.busy), flags)?;
     ended
 }
@@ -173,10 +173,12 @@ fn until_stopped<R>(
     steps: &Steps,
     mut work: impl FnMut() -> Result<R, Failure>,
 ) -> Result<(Vec<R>, Result<(), Failure>), Failure> {
-    steps.begin("a run that is not counted");
-    work()?;
-    steps.done();
     let mut done = Vec::new();
+    if repeat > 0 {
+        steps.begin("a run that is not counted");
+        work()?;
+    }
+    steps.done();
     for _ in 0..repeat {
         steps.begin("whole runs");
         match work() {

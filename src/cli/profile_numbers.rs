@@ -21,20 +21,23 @@ type Change = fn(&mut World);
 /// The most pixels along a side of a picture that brute force casts: its rays are sixteen a pixel, and each goes all the way.
 const BRUTE_SIDE: u32 = 400;
 
-/// The paper's numbers of some keys; `repeat` frames of each of two variants. What a scene cannot tell says why.
-pub fn numbers(
+/// Adds the paper's numbers of some keys to a profile, each as soon as it is known, but for those that it has; `repeat` frames
+/// of each of two variants. What a scene cannot tell says why.
+pub fn add_numbers(
     subject: &Subject,
-    profile: &Profile,
+    profile: &mut Profile,
     (keys, repeat): (&[&str], usize),
     steps: &Steps,
-) -> Result<Vec<Number>, Failure> {
-    let mut numbers = Vec::new();
+) -> Result<(), Failure> {
     for paper in PAPER_NUMBERS.iter().filter(|paper| keys.contains(&paper.key)) {
-        steps.begin(paper.what);
-        numbers.push(number(paper, subject, profile, repeat)?);
+        if profile.numbers.iter().all(|known| known.key != paper.key) {
+            steps.begin(paper.what);
+            let found = number(paper, subject, profile, repeat)?;
+            profile.numbers.push(found);
+        }
         steps.done();
     }
-    Ok(numbers)
+    Ok(())
 }
 
 /// The keys of all of them, each a step.

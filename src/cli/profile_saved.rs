@@ -91,25 +91,43 @@ impl Stage {
         run: f64,
         (bytes, counts): (u64, Vec<(&str, u64)>),
     ) -> Self {
-        let least = seconds.iter().copied().reduce(f64::min).unwrap_or(0.0);
-        let most = seconds.iter().copied().reduce(f64::max).unwrap_or(0.0);
-        let median = median(&seconds);
         let paper = paper_costs(name).next().filter(|_| made > 0 && name != "frame");
         let counts = counts.into_iter().filter(|(_, count)| *count > 0);
-        Self {
+        let mut stage = Self {
             name: name.to_owned(),
             made,
             seconds,
             busy,
-            median,
-            least,
-            most,
-            share: if run > 0.0 { median / run } else { 1.0 },
+            median: 0.0,
+            least: 0.0,
+            most: 0.0,
+            share: 0.0,
             counts: counts.map(|(what, count)| (what.to_owned(), count)).collect(),
             bytes,
             paper_seconds: paper.map(|paper| paper.seconds),
             paper_what: paper.map(|paper| paper.what.to_owned()),
+        };
+        stage.sum_up(run);
+        stage
+    }
+
+    /// What follows from the seconds of its runs, where the run's own median is `run` seconds; 0 for the run itself.
+    fn sum_up(&mut self, run: f64) {
+        let seconds = || self.seconds.iter().copied();
+        let (least, most) = (seconds().reduce(f64::min), seconds().reduce(f64::max));
+        self.median = median(&self.seconds);
+        [self.least, self.most] = [least, most].map(|end| end.unwrap_or(0.0));
+        self.share = if run > 0.0 { self.median / run } else { 1.0 };
+    }
+
+    /// The runs of `before` and then these; `run` as in [`Stage::sum_up`].
+    fn after(mut self, before: Option<&Self>, run: f64) -> Self {
+        if let Some(before) = before {
+            self.seconds.splice(0..0, before.seconds.iter().copied());
+            self.busy.splice(0..0, before.busy.iter().copied());
         }
+        self.sum_up(run);
+        self
     }
 
     /// The paper's seconds of a frame of that kind stand beside this one's.
@@ -128,6 +146,19 @@ impl Profile {
             sum / self.run.seconds[at]
         };
         median(&(0..self.run.seconds.len()).map(of_run).collect::<Vec<f64>>())
+    }
+
+    /// The runs of `before`, of the same scene and settings, and then these; with its numbers of the paper.
+    pub fn after(self, before: Self) -> Self {
+        let run = self.run.after(Some(&before.run), 0.0);
+        let named = |name: &str| before.stages.iter().find(|stage| stage.name == name);
+        let stages = self.stages.into_iter().map(|stage| {
+            let known = named(&stage.name);
+            stage.after(known, run.median)
+        });
+        let stages = stages.collect();
+        let frame = self.frame.after(Some(&before.frame), run.median);
+        Self { stages, frame, run, numbers: before.numbers, ..self }
     }
 
     /// Reads a saved one.

@@ -86,10 +86,10 @@ pub fn number(number: &Number) -> [String; 4] {
     [number.what.clone(), ours, within, number.paper.clone()]
 }
 
-/// A line a stage, one for casting and resampling together, and one for the run.
+/// A line a stage, one for casting and resampling together, one for the run, and one a number of the paper, by its key.
 pub fn csv(profile: &Profile) -> String {
     let mut text =
-        "stage,made,median_seconds,least_seconds,most_seconds,share,processor_seconds,bytes,counts,paper_seconds\n"
+        "stage,made,median_seconds,least_seconds,most_seconds,share,processor_seconds,bytes,counts,paper_seconds,number,number_low,number_high,paper_number\n"
             .to_owned();
     for stage in profile.stages.iter().chain([&profile.frame, &profile.run]) {
         let counts = stage.counts.iter().map(|(what, count)| format!("{count} {what}"));
@@ -98,10 +98,15 @@ pub fn csv(profile: &Profile) -> String {
         let paper = stage.paper_seconds.map_or_else(String::new, |seconds| seconds.to_string());
         let _ = writeln!(
             text,
-            "{name},{made},{median},{least},{most},{share},{},{bytes},\"{}\",{paper}",
+            "{name},{made},{median},{least},{most},{share},{},{bytes},\"{}\",{paper},,,,",
             busy,
             counts.collect::<Vec<_>>().join("; ")
         );
+    }
+    for Number { key, ours, within, paper, .. } in &profile.numbers {
+        let told = |number: Option<f64>| number.map_or_else(String::new, |n| n.to_string());
+        let [low, high] = [0, 1].map(|end| told(within.map(|within| within[end])));
+        let _ = writeln!(text, "{key},,,,,,,,,,{},{low},{high},{paper}", told(*ours));
     }
     text
 }

@@ -15,7 +15,7 @@ use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::noted::VERSION;
 use super::outputs::write_text;
-use super::profile_numbers::numbers;
+use super::profile_numbers::add_numbers;
 use super::profile_run::{Subject, profile};
 use super::profile_saved::Profile;
 use super::report_figures::claim;
@@ -77,7 +77,7 @@ impl Parts<'_> {
             runs.push(subject.run()?);
         }
         let mut profile = profile(&runs).ok_or(Error::Interrupted)?;
-        profile.numbers = numbers(&subject, &profile, (keys, self.pairs), self.steps)?;
+        add_numbers(&subject, &mut profile, (keys, self.pairs), self.steps)?;
         let png = self.keep(name, &made, &profile)?;
         self.steps.done();
         Ok(Figure { profile, png })

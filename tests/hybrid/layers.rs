@@ -27,6 +27,29 @@ fn layers_of_32_bits_keep_every_digit_however_faint() {
 }
 
 #[test]
+fn the_error_of_a_ray_grows_with_its_layers_by_the_last_bit_of_a_transparency_alone() {
+    // A voxel's width of even gel, cut into as many layers as a ray may have samples.
+    let grid = Grid::axis_aligned([2; 3], [1.0; 3], [-0.5; 3]).unwrap();
+    println!("opacity, then what a ray is off by after 2, 10, … 1,000,000 layers");
+    for opacity in [1e-9_f32, 1e-6, 1e-3, 0.5, 0.999, 1.0 - f32::EPSILON / 2.0] {
+        let gel = homogeneous(&grid, [0.5, 0.5, 0.5, opacity]);
+        let off = [2, 10, 100, 1_000, 10_000, 100_000, 1_000_000].map(|layers| {
+            let distance_mm = Some(1.0 / f64::from(layers));
+            let sampling = Sampling { texel: TexelKind::F32, distance_mm, ..every_pixel() };
+            let scene = Mixture { sampling, ..Mixture::of(grid, gel.clone()) };
+            let seen = scene.seen((0.0, 0.0), 1, 0.25).render().picture.pixels[0][3];
+            let off = f64::from(seen) - f64::from(opacity);
+            assert!(
+                off.abs() < 2e-7 * f64::from(opacity) + 1.2e-16 * f64::from(layers),
+                "{layers} layers of {opacity:e} together: off by {off:e}"
+            );
+            off
+        });
+        println!("{opacity:.3e}: {}", off.map(|off| format!("{off:9.1e}")).join(" "));
+    }
+}
+
+#[test]
 fn layers_of_fixed_point_are_those_of_the_nearest_stored_opacity_and_vanish_under_half_a_step() {
     for (texel, steps, bits) in [(TexelKind::U16, 65535.0, 16), (TexelKind::U8, 255.0, 8)] {
         for opacity in [0.2 / 65535.0, 0.49 / 255.0, 1e-4, 1e-3, 0.51 / 255.0, 2e-3, 0.01_f32] {

@@ -59,6 +59,8 @@ fn the_stages_make_up_the_run_and_stand_beside_the_paper() {
     assert!(stage("relight")["bytes"].as_u64() > Some(0));
     let csv = place.done("profile all.toml --no-ratios --repeat 1 --csv").out;
     assert_eq!(csv.lines().count(), stages.len() + 3, "{csv}");
+    let cells = |line: &str| line.matches(',').count();
+    assert!(csv.lines().all(|line| cells(line) >= cells(csv.lines().next().unwrap())), "{csv}");
 }
 
 #[test]
@@ -69,10 +71,56 @@ fn the_numbers_of_the_paper_are_measured_where_the_scene_has_what_they_are_of() 
         assert!(!line.contains("needs"), "{table}");
     }
     assert!(table.contains("about 1.6") && table.contains("60 s classifying"), "{table}");
+    let csv = place.done("profile all.toml --repeat 1 --csv").out;
+    for (key, paper) in [("hybrid", "about 1.6"), ("brute_force", "more than 100")] {
+        let line = csv.lines().find(|line| line.starts_with(&format!("{key},"))).unwrap();
+        let cells: Vec<&str> = line.split(',').collect();
+        assert!(cells[10].parse::<f64>().unwrap() > 0.0 && cells[13] == paper, "{line}");
+        assert_eq!(cells.len(), csv.lines().next().unwrap().split(',').count());
+    }
     place.done("profile cross.toml --repeat 1 --json -o cross.json");
     let numbers = place.json("cross.json")["numbers"].clone();
     let hybrid = numbers.as_array().unwrap().iter().find(|n| n["key"] == "hybrid").unwrap();
     assert!(hybrid["ours"].is_null() && hybrid["note"] == "needs a volume and polygons");
+}
+
+#[test]
+fn a_profile_that_was_stopped_goes_on() {
+    let place = place();
+    let seconds = |run: &serde_json::Value| run["seconds"].as_array().unwrap().clone();
+    let measured = |words: &str, name: &str| {
+        place.done(&format!("profile all.toml {words} --json -o {name} --resume"));
+        place.json(name)
+    };
+    let two = measured("--repeat 2 --no-ratios", "p.json");
+    let five = measured("--repeat 5 --no-ratios", "p.json");
+    let runs = seconds(&five["run"]);
+    assert_eq!([seconds(&two["run"]).len(), runs.len()], [2, 5]);
+    assert_eq!(runs[..2], seconds(&two["run"])[..]);
+    for stage in five["stages"].as_array().unwrap() {
+        assert_eq!(seconds(stage).len(), 5, "{}", stage["name"]);
+    }
+    let least = runs.iter().map(|run| run.as_f64().unwrap()).fold(f64::INFINITY, f64::min);
+    assert_eq!(five["run"]["least"].as_f64(), Some(least));
+    // Nothing is left but the paper's numbers.
+    let whole = measured("--repeat 5", "p.json");
+    assert_eq!((seconds(&whole["run"]), whole["numbers"].as_array().unwrap().len()), (runs, 7));
+    let pair = |repeat: u32| {
+        measured(&format!("cross.toml --repeat {repeat}"), "pair.json")["b"]["run"].clone()
+    };
+    let before = seconds(&pair(1));
+    assert_eq!(seconds(&pair(3))[..1], before[..]);
+
+    let going_on = "--repeat 9 --json --resume -o p.json";
+    place.refused(
+        &format!("profile all.toml --size 9x9 {going_on}"),
+        1,
+        &["p.json", "other settings"],
+    );
+    place.refused(&format!("profile all.toml cross.toml {going_on}"), 1, &["another number"]);
+    place.refused("profile all.toml --json --resume", 2, &["-o FILE.json"]);
+    place.refused("profile all.toml --resume -o p.json", 2, &["--json"]);
+    assert_eq!(place.json("p.json"), whole);
 }
 
 #[test]
