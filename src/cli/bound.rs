@@ -23,6 +23,15 @@ const THREAD: u64 = 512 << 10;
 /// Bytes for a pixel of the picture's file, while it is made.
 const ENCODED: u64 = 16;
 
+/// What each byte of a scene's text takes while it is read, and each entity that it states.
+const LETTER: u64 = 72;
+const ENTITY: u64 = 3 << 10;
+
+/// What the text of a scene takes while it is read.
+pub fn text(scene: &str) -> u64 {
+    LETTER * scene.len() as u64 + ENTITY * scene.matches("[[entity]]").count() as u64
+}
+
 /// Refuses a scene whose voxels and products could take more memory than `--max-memory` allows.
 pub fn check_memory(schedule: &Schedule, world: &World, flags: &Flags) -> Result<(), Failure> {
     let taken = stats::voxels(world) + textures(world);

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use gelray::components::{Name, Sampling, View};
 use gelray::renderer::Renderer;
+use gelray::scene::Scene;
 use gelray::schedule::{Job, Plan, Schedule};
 use gelray::view::extent::Extent;
 use gelray::volume::grid::smallest_spacing;
@@ -30,7 +31,7 @@ pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {
     let scene = render::load(&source, flags)?;
     let renderer = Renderer::new()?;
     let schedule = renderer.schedule();
-    outputs::print_or_write(&words(schedule, &scene.world), flags)?;
+    outputs::print_or_write(&words(schedule, &scene), flags)?;
     check_memory(schedule, &scene.world, flags)
 }
 
@@ -47,13 +48,15 @@ fn samples(world: &World) -> Option<String> {
     ))
 }
 
-fn words(schedule: &Schedule, world: &World) -> String {
+fn words(schedule: &Schedule, scene: &Scene) -> String {
+    let world = &scene.world;
     let heading =
         ["system", "", "at most", "bytes", "expected", "makes", "for", "why"].map(str::to_owned);
     let voxels = stats::voxels(world);
     let plans: Vec<_> = jobs(schedule).map(|job| (job, (job.plan)(world))).collect();
     let beside = [
         (bound::program(), "the program and its threads"),
+        (bound::text(&scene.resolved), "the scene's text, while it is read"),
         (bound::polygons(world), "polygons, as they were read and as rays look for them"),
         (bound::textures(world), "textures, as they were read and at their coarser levels"),
         (bound::encoding(world), "the file of the picture, while it is made"),

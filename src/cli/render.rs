@@ -153,6 +153,7 @@ fn maps(path: &Path, hits: &FirstHits) -> Result<Whole, Error> {
 /// A fault that `--set` brought in is a misuse.
 pub fn load(source: &Source, flags: &Flags) -> Result<Scene, Failure> {
     let _span = tracing::info_span!("load").entered();
+    memory::check(bound::text(&source.text), flags.max_memory)?;
     let changes = changes(source, flags);
     let data = flags.data_folders();
     let allowed = memory::allowed(flags.max_memory, 0);

@@ -24,6 +24,7 @@ fn a_process_that_the_system_lets_have_little_memory_says_so() {
     // Enough, or a sentence: whatever the limit, nothing else. Threads that each took a heap of their own, whenever they
     // came to it, ended one run of hundreds without a word.
     place.write("v.npy", npy_of_bytes(100));
+    place.write("many.toml", repeated(6000, |i| format!("light = {{ toward = [1, 0, {i}] }}")));
     place.done("render cross.toml -q -o b.png --size 700x700");
     for (step, words) in [
         (40_000, "render cross.toml -t 3 -q -o a.png --size 99x99"),
@@ -34,6 +35,7 @@ fn a_process_that_the_system_lets_have_little_memory_says_so() {
         (23_001, "info b.png -t 2"),
         (23_002, "info v.npy -t 2"),
         (23_003, "info phantom:head -t 1"),
+        (23_004, "render many.toml -t 2 -q -o a.png --size 48x48"),
     ] {
         for kilobytes in (40_000..230_000).step_by(step) {
             let (code, said) = tried(kilobytes, words);
@@ -43,7 +45,7 @@ fn a_process_that_the_system_lets_have_little_memory_says_so() {
         let _ = std::fs::remove_file(place.path("a.png"));
         let _ = std::fs::remove_file(place.path("a.gif"));
     }
-    for name in ["v.npy", "b.png"] {
+    for name in ["v.npy", "b.png", "many.toml"] {
         std::fs::remove_file(place.path(name)).unwrap();
     }
     let (code, said) = tried(60_000, "render cross.toml -t 512 -q -o a.png");

@@ -202,3 +202,20 @@ fn polygons_that_were_read_are_in_the_plan() {
     };
     assert!(weighed(2000) > weighed(1000) + 1000 * 100);
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_text_of_a_scene_is_in_the_plan_for_as_long_as_it_is_read() {
+    let place = Place::new();
+    let triangles: Vec<String> = (0..6000)
+        .map(|i| {
+            format!(
+                "[[entity]]\npolygon = {{ vertices = [[{i}, 0, 0], [{i}, 1, 0], [{i}, 0, 1]] }}\n"
+            )
+        })
+        .collect();
+    place.write("many.toml", triangles.concat());
+    let [bound, _] = against_peak(&place, "many.toml");
+    assert!((1.0..1.5).contains(&bound), "{bound}");
+    place.refused("plan many.toml --max-memory 20M", 1, &["20971520"]);
+}
