@@ -82,15 +82,15 @@
 //! | `pyramid` | which cells are interesting, and how far away the nearest is (§6) | [`pyramid`] |
 //!
 //! A volume that states `reconstruct = "values"` walks a shorter way: of it only `ranges` and `pyramid` are made, the bits of
-//! the latter from the values of voxels around each cell ([`seen`]), so that an edit of what is seen makes bits and a picture;
+//! the latter from the values of voxels around each cell ([`seen`]; a bit a voxel where no gradient counts), so that an edit of what is seen makes bits and a picture;
 //! `classify` runs where a light casts shadows, and `prefilter` where [`coefficients`] of a spline are asked for.
 //!
 //! # The walk of a ray
 //!
 //! `cast` owns the rays of a view. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
 //! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that an edge is seen, of a
-//! polygon or a surface of values. Rays go in packets: tiles of four by four neighbours on the grid in use. `march` takes a
-//! packet through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
+//! polygon or a surface of values. Rays go in packets: tiles of four by four neighbours on the grid in use, or, where few
+//! are wanted, those of several tiles, put together by `gathered`. `march` takes a packet through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
 //! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
 //! whole packet sees nothing (and before it a `Group` of packets), `window` finds which of its rays meet gel at the next four
 //! samples, all sixty-four places at once, and `kernel` samples it for them, with the widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
@@ -130,7 +130,8 @@
 //! - **Several volumes may overlap**, each on its grid: optical depths add and colours weigh by them
 //!   ([`composite::overlap`](view::composite::overlap)), independent of their order. What comes through several of them to a
 //!   voxel is the product of what comes through each, so each is swept by a light alone.
-//! - **Rays go in packets of sixteen**, neighbours side by side from sample to sample; each gathers what it would alone.
+//! - **Rays go in packets of sixteen**, neighbours side by side from sample to sample; each gathers what it would alone. Voxels
+//!   are classified and shaded eight side by side ([`light`]); none differs by a bit from what it would be alone.
 //! - **The pyramid's upper levels are distances**: how many blocks of 4³ cells away the nearest interesting one is. A level
 //!   leaps to the end of an aligned cell, a distance across all the room there is. Near what is interesting, sixteen rays are
 //!   looked up at four samples at once in the bits of the cells; a bit a cell for what is near it, for all rays of a packet,
@@ -145,8 +146,8 @@
 //!   sooner, and of opaque surfaces cost half again as much a frame; but of gel that rays go through, under three lights with
 //!   shadows, a frame takes ten times as long. The paper's figures keep colors in any case.
 //! - **A contour of thickness 0 is a surface** of values: where a ray crosses it is found within the slab, so that it is as
-//!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before or behind all of it. Its
-//!   edges ask for rays as those of polygons do: C_A sees it lit, and C_G its normal in place of a color, so that there are
+//!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before it or behind it, as it does; of several surfaces in one
+//!   slab that a polygon cuts, all count as where the first is. Its edges ask for rays as those of polygons do: C_A sees it lit, and C_G its normal in place of a color, so that there are
 //!   more than one a pixel where it ends or hides another part of itself, and not where it bends.
 //! - **Slabs of values may be integrated** (`integrate`): a transfer function is taken as the scalar goes straight from a slab's
 //!   beginning to its sample and on to its end, piece by piece in closed form, so that a sharp one does not ask for short

@@ -2,7 +2,7 @@
 //!
 //! `inputs` gathers what a view's rays may meet, `rays` makes of it what they need, and sends them on an errand: that of a
 //! picture, or `judge`'s, who casts `exact_pixel`s to tell how far a picture is off. `adaptive` says where rays are cast,
-//! `caster` takes them in packets of sixteen, `march` takes a packet through slabs and slivers. `media` is the gel as a packet
+//! `gathered` puts them together to packets of sixteen, `caster` takes those, `march` takes a packet through slabs and slivers. `media` is the gel as a packet
 //! meets it: nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing` and slabs that
 //! are `integrated`), or `several` that overlap. A packet leaps as a `bundle` over what is empty, and looks through a `window`
 //! at what may not be; `beams` says where it can meet a polygon. `projection` is volumes of which a ray shows one value, `sought` along it. `polygons` says
