@@ -132,24 +132,23 @@ impl<'a> PyramidSlices<'a> {
         words.is_some_and(|words| words[z] >> (CELLS * y + x) & 1 == 1)
     }
 
-    /// Whether any of the cells from `low` to `high`, both among them, may be seen, of a pyramid that was made of cells.
+    /// Whether any cell of some ranges of them along the axes, both ends among them, may be seen, of a pyramid that was made of
+    /// cells.
     #[must_use]
     #[inline]
-    pub(crate) fn shows_any(self, low: [usize; 3], high: [usize; 3]) -> bool {
-        let brick = low.map(|n| n / CELLS);
-        if brick != high.map(|n| n / CELLS) {
-            let [x, y, z] = std::array::from_fn(|axis| low[axis]..=high[axis]);
-            return z
-                .into_iter()
-                .any(|z| y.clone().any(|y| x.clone().any(|x| self.shows([x, y, z]))));
+    pub(crate) fn shows_any(self, [[x0, x1], [y0, y1], [z0, z1]]: [[usize; 2]; 3]) -> bool {
+        // One number after the other: arrays of them would be put together to be compared.
+        if (x0 ^ x1) | (y0 ^ y1) | (z0 ^ z1) >= CELLS {
+            let mut rows = (z0..=z1).flat_map(|z| (y0..=y1).map(move |y| (y, z)));
+            return rows.any(|(y, z)| (x0..=x1).any(|x| self.shows([x, y, z])));
         }
         let [nx, ny, _] = self.bricks();
-        let stored = self.table.get((brick[2] * ny + brick[1]) * nx + brick[0]);
+        let brick = (z0 / CELLS * ny + y0 / CELLS) * nx + x0 / CELLS;
+        let stored = self.table.get(brick);
         let Some(words) = stored.and_then(|&stored| self.words(stored)) else { return false };
-        let ([x, y, z], [x1, y1, z1]) = (low.map(|n| n % CELLS), high.map(|n| n % CELLS));
-        let row = (0xff_u64 >> (CELLS - 1 - (x1 - x))) << x;
-        let slice = (y..=y1).fold(0, |bits, y| bits | row << (CELLS * y));
-        words[z..=z1].iter().any(|word| word & slice != 0)
+        let row = (0xff_u64 >> (CELLS - 1 - (x1 - x0))) << (x0 % CELLS);
+        let slice = (y0 % CELLS..=y1 % CELLS).fold(0, |bits, y| bits | row << (CELLS * y));
+        words[z0 % CELLS..=z1 % CELLS].iter().any(|word| word & slice != 0)
     }
 
     /// The interesting cells of a stored brick: bit `8 y + x` of word `z`; `None` for one that is not stored.

@@ -105,8 +105,7 @@ impl<'a> Values<'a> {
             let [a, b] = ends.map(|end| end[axis]);
             [cell(axis, a.min(b)), cell(axis, a.max(b))]
         };
-        let cells = [sorted(0), sorted(1), sorted(2)];
-        pyramid.shows_any(cells.map(|cell| cell[0]), cells.map(|cell| cell[1]))
+        pyramid.shows_any([sorted(0), sorted(1), sorted(2)])
     }
 
     /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; `middle` is the value at
