@@ -156,13 +156,12 @@ pub fn crossing(
         return None;
     }
     let (near, mut last) = (1e-6 * (fa - fb).abs(), 0);
-    let mut made = [Sampled::default()];
-    let mut part = a;
+    let (mut found, mut part) = ([0.0], a);
     for _ in 0..HALVINGS {
         // Where a straight line crosses; an end that stays twice counts half (Illinois), so that both come nearer.
         part = (a * fb - b * fa) / (fb - fa);
-        field.sample(level, &[spot(stretch.at(part))], &mut made);
-        let f = f64::from(made[0].value - value);
+        field.values(level, &[spot(stretch.at(part))], &mut found);
+        let f = f64::from(found[0] - value);
         if f.is_nan() {
             return None;
         }
@@ -179,6 +178,8 @@ pub fn crossing(
             last = 2;
         }
     }
+    let mut made = [Sampled::default()];
+    field.sample(level, &[spot(stretch.at(part))], &mut made);
     Some((part, made[0]))
 }
 

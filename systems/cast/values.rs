@@ -117,10 +117,9 @@ impl<'a> Values<'a> {
         (stretch, middle): (&Stretch, f32),
         (seen, ratio, met): (&mut Vec4, f64, &mut Vec<CrossedSurface>),
     ) -> Sheet {
-        let mut ends = [Sampled::default(); 2];
-        let spots = [0.0, 1.0].map(|part| spot(stretch.at(part)));
-        self.field.sample(level, &spots, &mut ends);
-        let values = [(0.0, ends[0].value), (0.5, middle), (1.0, ends[1].value)];
+        let mut ends = [0.0; 2];
+        self.field.values(level, &stretch.ends().map(spot), &mut ends);
+        let values = [(0.0, ends[0]), (0.5, middle), (1.0, ends[1])];
         met.clear();
         for surface in &self.surfaces {
             for half in values.windows(2) {
