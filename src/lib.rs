@@ -190,8 +190,8 @@
 //!   `out` multiply the volume by 1 − min(1, 4/3 coverage).
 //! - Columns of a sweep are anchored at the slice of entry and run along the axis nearest to the light in index space; biases
 //!   count in smallest spacings; a slide is averaged over a column's cell.
-//! - Strengths of light are kept in 16 bits of the greatest there can be, 1 / min(k_1 + k_2 d), with `--exact` too: an error
-//!   of 2⁻¹⁷ of that.
+//! - What comes through to a voxel of a light is kept in 16 bits, with `--exact` too: an error of 2⁻¹⁷ of the light there
+//!   would be; the falloff k_1 + k_2 d is divided by where it is read.
 //! - Light passes a scan-converted polygon slice by slice, and not at the samples of rays for which its opacity is calibrated:
 //!   one of opacity .9 lets .091 of the light through, and not .1.
 //! - Scalars are classified as 32-bit floats; where that loses digits which tell values apart, it is said.

@@ -19,7 +19,7 @@ use crate::components::{CastsShadow, Light, Name};
 use crate::error::Error;
 use crate::light::shading::toward;
 use crate::light::strength::{
-    Buffer, Falloff, LightStrength, ProjectedBy, Shear, Slide, VoxelStrength, quantize,
+    Buffer, Falloff, LightStrength, ProjectedBy, Receding, Shear, Slide, VoxelStrength, quantize,
 };
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
@@ -203,12 +203,11 @@ impl Sweep<'_> {
         let brightest = slide.as_ref().map_or(1.0, Slide::brightest);
         // A slide of black has no strength to scale by.
         let brightest = if brightest > 0.0 { brightest } else { 1.0 };
-        let full = (f64::from(brightest) / falloff.least()) as f32;
         let ratio = shear.distance / volume.unit;
         let mut columns = Columns::new(&shear, slide.as_ref(), ratio, depth(bias, &shear));
         let way = *toward * (bias * shear.distance);
         let mut voxels =
-            others.map(|others| Voxels::new(&casters.opacity, &falloff, (bias, way), full, others));
+            others.map(|others| Voxels::new(&casters.opacity, (bias, way), brightest, others));
         let [width, height] = shear.width();
         let kept = if buffer { width * height * shear.size[2] } else { 0 };
         let mut slices = Vec::with_capacity(kept);
@@ -226,7 +225,11 @@ impl Sweep<'_> {
             watch.advance();
         }
         drop(columns);
-        let strength = voxels.map(|voxels| VoxelStrength { voxels: voxels.gather(&shear), full });
+        let strength = voxels.map(|voxels| VoxelStrength {
+            voxels: voxels.gather(&shear),
+            full: brightest,
+            receding: Receding::new(falloff, grid, way),
+        });
         let buffer = buffer.then(|| Buffer::new((shear, falloff), slide, (slices, brightest), way));
         Ok((strength, buffer))
     }

@@ -4,13 +4,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::columns::Columns;
-use crate::light::strength::{Buffer, Falloff, Place, Shear, quantize};
+use crate::light::strength::{Buffer, Place, Shear, quantize};
 use crate::volume::bricks::{Bricks, EDGE};
 
 /// The strengths at interesting voxels, gathered slice by slice.
 pub(super) struct Voxels<'a> {
     opacity: &'a Bricks<f32>,
-    falloff: &'a Falloff,
     /// In slices, and as the way towards the light in the world.
     bias: (f64, DVec3),
     full: f32,
@@ -31,34 +30,28 @@ struct Lit {
 struct Beams<'a> {
     columns: &'a Columns<'a>,
     slice: usize,
-    /// Where the strength for voxel (0, 0) is read, and at which distance along the light that is.
+    /// Where the strength for voxel (0, 0) is read.
     place: Option<Place>,
-    distance: f64,
-    /// What the distance grows by from a voxel to its neighbours across and down.
-    farther: [f64; 2],
 }
 
 impl Beams<'_> {
-    /// β at a voxel of the slice.
+    /// β_0 · T at a voxel of the slice.
     #[inline]
-    fn beta(&self, voxel: [usize; 2], falloff: &Falloff) -> f64 {
-        let [x, y] = voxel.map(|v| v as f64);
-        let column = self.columns.shear.column([x, y], self.slice as f64);
+    fn through(&self, voxel: [usize; 2]) -> f64 {
+        let column = self.columns.shear.column(voxel.map(|v| v as f64), self.slice as f64);
         let place = self.place.map(|place| place.moved(voxel));
-        let distance = self.distance + x * self.farther[0] + y * self.farther[1];
-        self.columns.strength(place.as_ref(), column) / falloff.divisor(distance)
+        self.columns.strength(place.as_ref(), column)
     }
 }
 
 impl<'a> Voxels<'a> {
     pub fn new(
         opacity: &'a Bricks<f32>,
-        falloff: &'a Falloff,
         bias: (f64, DVec3),
         full: f32,
         others: &'a [&'a Buffer],
     ) -> Self {
-        Self { opacity, falloff, bias, full, others, slices: Vec::new() }
+        Self { opacity, bias, full, others, slices: Vec::new() }
     }
 
     /// What the other volumes let through to a voxel of the slice.
@@ -73,14 +66,10 @@ impl<'a> Voxels<'a> {
     /// Lights the interesting voxels of the slice that the columns have come to.
     pub fn light(&mut self, slice: usize, columns: &Columns<'_>) {
         let shear = columns.shear;
-        let distance = |x, y| self.falloff.distance(shear.world([x, y, slice as f64]));
-        let first = distance(0.0, 0.0);
         let beams = Beams {
             columns,
             slice,
             place: shear.place(shear.column([0.0; 2], slice as f64), slice as f64 - self.bias.0),
-            distance: first - self.bias.0 * shear.distance,
-            farther: [distance(1.0, 0.0) - first, distance(0.0, 1.0) - first],
         };
         let rows = (0..shear.size[1].div_ceil(EDGE)).into_par_iter();
         let rows = rows.map(|row| self.row(row, &beams)).collect();
@@ -99,8 +88,8 @@ impl<'a> Voxels<'a> {
             for ([x, y], within) in offsets(shear, slice) {
                 if opacities[within] > 0.0 {
                     let voxel = [brick * EDGE + x, row * EDGE + y];
-                    let beta = beams.beta(voxel, self.falloff) * self.through(shear, voxel, slice);
-                    lit.strengths.push(quantize(beta, f64::from(self.full)));
+                    let through = beams.through(voxel) * self.through(shear, voxel, slice);
+                    lit.strengths.push(quantize(through, f64::from(self.full)));
                 }
             }
         }

@@ -38,7 +38,7 @@ impl LitLayer<'_> {
         let bright = |place: BrickPlace| {
             let channel =
                 |bricks: &Bricks<[f32; 3]>| bricks.brick(place.brick).map_or(0.0, brightest);
-            let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, |s| s.full);
+            let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, VoxelStrength::most);
             let shadowed = self.shadowed.iter();
             let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
             channel(self.base) + shadowed > BRIGHT
@@ -113,15 +113,19 @@ fn brightest(colors: &[[f32; 3]; VOXELS]) -> f32 {
 
 /// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
 fn betas(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
-    let Some(VoxelStrength { voxels, full }) = strength else { return [1.0; EDGE] };
-    let Some(stored) = voxels.brick(brick) else { return [0.0; EDGE] };
-    std::array::from_fn(|x| f32::from(stored[within + x]) / 65535.0 * full)
+    let Some(strength) = strength else { return [1.0; EDGE] };
+    let Some(stored) = strength.voxels.brick(brick) else { return [0.0; EDGE] };
+    let [x, y, z] = brick.map(|brick| brick * EDGE);
+    let [y, z] = [y + within / EDGE % EDGE, z + within / (EDGE * EDGE)];
+    std::array::from_fn(|at| strength.beta(stored[within + at], [x + at, y, z]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::volume::gel::{CELLS, EMPTY};
+
+    use crate::light::strength::Receding;
 
     const SIZE: [usize; 3] = [20, 17, 10];
 
@@ -172,7 +176,7 @@ mod tests {
         let [base, first, second] = [[0.1, 0.2, 0.3], [0.4, 0.0, 0.0], [0.0, 0.0, 0.5]]
             .map(|color| colors(&opacity, color));
         let half = opacity.map(|_, _, made| made.fill(32768));
-        let strength = VoxelStrength { voxels: half, full: 0.5 };
+        let strength = VoxelStrength { voxels: half, full: 0.5, receding: Receding::NONE };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
         let gel = LitLayer { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
         let beta = 32768.0 / 65535.0 * 0.5;

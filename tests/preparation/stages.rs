@@ -1,7 +1,7 @@
 //! Closed forms through the whole of preparation: balls, shadows, cuts and paint.
 
 use gelray::components::{CastsShadow, Clip, DepthCue, Material, Order, TexelKind, Toward};
-use gelray::light::strength::{LightStrength, VoxelStrength};
+use gelray::light::strength::{LightStrength, Receding, VoxelStrength};
 use gelray::shared::Shared;
 use gelray::volume::bricks::Bricks;
 use gelray::volume::gel::Gel;
@@ -17,7 +17,7 @@ use super::{
 
 /// A light's strengths in one volume.
 fn lit(volume: Entity, voxels: Bricks<u16>, full: f32) -> LightStrength {
-    let strength = VoxelStrength { voxels, full };
+    let strength = VoxelStrength { voxels, full, receding: Receding::NONE };
     LightStrength { volumes: vec![(volume, strength)], buffers: Vec::new() }
 }
 

@@ -10,7 +10,7 @@ use glam::DVec3;
 use crate::setup::{NO_BIAS, Scene, at, beta, cubes, noise, point, voxels};
 
 fn sound(strength: &LightStrength, size: [usize; 3]) -> bool {
-    let full = f64::from(strength.volumes[0].1.full);
+    let full = f64::from(strength.volumes[0].1.most());
     let within = |beta: f64| beta.is_finite() && (0.0..=full * (1.0 + 1e-6)).contains(&beta);
     let far = [DVec3::splat(1e12), DVec3::splat(-1e300), DVec3::new(1e5, 0.0, -3.0), DVec3::NAN];
     full.is_finite()

@@ -81,7 +81,28 @@ fn strength_falls_off_with_distance_from_where_the_light_meets_the_bounding_sphe
         assert!((beta(&strength, voxel) - expected).abs() < 3e-5, "{voxel:?}");
         assert!((at(&strength, point(voxel)) - falloff(point(voxel))).abs() < 3e-5);
     }
-    assert!((f64::from(strength.volumes[0].1.full) - corners[0]).abs() < 1e-6);
+    assert!((f64::from(strength.volumes[0].1.most()) - corners[0]).abs() < 1e-6);
+}
+
+#[test]
+fn a_light_that_falls_off_steeply_keeps_all_its_digits_far_away() {
+    let (size, toward) = ([16, 16, 16], DVec3::Z);
+    let radius = 7.5 * 3_f64.sqrt();
+    for k1 in [0.1, 1e-2, 1e-4] {
+        // Right at the light, beside it a hundred or ten thousand times darker, and behind gel darker still.
+        let enter = 0.02 * (7.5 - radius);
+        let shadow = CastsShadow { bias_voxels: 0.0, k1: k1 + enter, k2: 0.02 };
+        let gel = |v: [usize; 3]| if v[0] < 8 { 0.1 } else { 1e-9 };
+        let bright = CastsShadow { bias_voxels: 0.0, k1: 1.0, k2: 0.0 };
+        let [steep, even] = [shadow, bright]
+            .map(|shadow| Scene::new(cubes(size), toward.to_array(), shadow, gel).sweep());
+        for voxel in voxels(size) {
+            let distance = radius - (point(voxel).z - 7.5);
+            let expected = beta(&even, voxel) / (k1 + enter + 0.02 * distance);
+            let error = (beta(&steep, voxel) - expected).abs();
+            assert!(error <= 1e-6 * expected, "{k1} {voxel:?}: {error:e} of {expected}");
+        }
+    }
 }
 
 #[test]

@@ -81,8 +81,8 @@ impl Scene {
 
 /// β at a voxel.
 pub fn beta(strength: &LightStrength, voxel: [usize; 3]) -> f64 {
-    f64::from(strength.volumes[0].1.voxels.value(voxel)) / 65535.0
-        * f64::from(strength.volumes[0].1.full)
+    let strength = &strength.volumes[0].1;
+    f64::from(strength.beta(strength.voxels.value(voxel), voxel))
 }
 
 /// β at a world point, without bias.

@@ -6,6 +6,7 @@
 
 mod buffer;
 mod falloff;
+mod receding;
 mod shear;
 mod slide;
 
@@ -16,6 +17,7 @@ use crate::schedule::Product;
 use crate::volume::bricks::Bricks;
 pub use buffer::Buffer;
 pub use falloff::Falloff;
+pub use receding::Receding;
 pub use shear::{Place, Shear, Window};
 pub use slide::{ProjectedBy, Slide};
 
@@ -29,13 +31,33 @@ pub struct LightStrength {
     pub buffers: Vec<Buffer>,
 }
 
-/// β of one light at every interesting voxel of a volume: 0 ..= 65535 stands for 0..=1 times `full`.
+/// β of one light at every interesting voxel of a volume: what comes through to it, 0 ..= 65535 for 0..=1 times `full`, over
+/// the divisor of its distance. Kept apart, so that near a light that falls off steeply no bits are spent which those far
+/// from it want.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VoxelStrength {
-    /// The strengths, in the bricks of what is lit; 0 where a voxel of such a brick is not interesting.
+    /// What comes through, in the bricks of what is lit; 0 where a voxel of such a brick is not interesting.
     pub voxels: Bricks<u16>,
-    /// The strength that 65535 stands for: finite and above 0.
+    /// What 65535 stands for: finite and above 0.
     pub full: f32,
+    /// `k_1 + k_2 d` of the voxels.
+    pub receding: Receding,
+}
+
+impl VoxelStrength {
+    /// No β is more.
+    #[must_use]
+    pub fn most(&self) -> f32 {
+        (f64::from(self.full) / self.receding.least()) as f32
+    }
+
+    /// β of a voxel, of which `kept` is in the bricks.
+    #[must_use]
+    #[inline]
+    pub fn beta(&self, kept: u16, voxel: [usize; 3]) -> f32 {
+        let through = f32::from(kept) / 65535.0 * self.full;
+        (f64::from(through) / self.receding.divisor(voxel)) as f32
+    }
 }
 
 impl Product for LightStrength {}
