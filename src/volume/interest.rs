@@ -41,24 +41,30 @@ impl Interest {
         let counts = opacity.counts();
         let [nx, ny, nz] = counts;
         let place = |at: usize| [at % nx, at / nx % ny, at / (nx * ny)];
-        let all = 0..nx * ny * nz;
-        let seen = |at: usize| opacity.brick(place(at)).map_or([0; EDGE], seen::<T>);
-        let seen: Vec<_> = all.clone().into_par_iter().map(seen).collect();
+        let entry = |[x, y, z]: [usize; 3]| (z * ny + y) * nx + x;
+        // Of the bricks that there are alone: most of a large grid has none.
+        let own: Vec<_> = opacity.stored().collect();
+        let mut numbers = vec![EMPTY; nx * ny * nz];
+        for (number, (place, _)) in own.iter().enumerate() {
+            numbers[entry(place.brick)] = number as u32;
+        }
+        let seen: Vec<_> = own.par_iter().map(|(_, opacity)| seen::<T>(opacity)).collect();
         let cells = |at: usize| {
             let [x, y, z] = place(at);
             let after = [x + 1 < nx, y + 1 < ny, z + 1 < nz];
-            around(|step| {
+            let cells = around(|step| {
                 let inside = (0..3).all(|axis| step[axis] == 0 || after[axis]);
-                inside.then(|| &seen[at + step[0] + (step[1] + step[2] * ny) * nx])
-            })
+                let number = if inside { numbers[at + entry(step)] } else { EMPTY };
+                seen.get(number as usize)
+            });
+            (cells != [0; CELLS]).then_some((at, cells))
         };
-        let mut table = vec![EMPTY; all.len()];
-        let mut stored = Vec::new();
-        let made: Vec<_> = all.into_par_iter().map(cells).collect();
-        for (entry, cells) in table.iter_mut().zip(made).filter(|(_, cells)| *cells != [0; CELLS]) {
-            *entry = stored.len() as u32;
-            stored.push(cells);
+        let made: Vec<_> = (0..nx * ny * nz).into_par_iter().filter_map(cells).collect();
+        let mut table = vec![EMPTY; nx * ny * nz];
+        for (number, (at, _)) in made.iter().enumerate() {
+            table[*at] = number as u32;
         }
+        let stored = made.into_iter().map(|(_, cells)| cells).collect();
         Self { counts, table, cells: stored }
     }
 }
