@@ -25,7 +25,7 @@ const ENCODED: u64 = 16;
 
 /// What each byte of a scene's text takes while it is read, and each entity that it states.
 const LETTER: u64 = 72;
-const ENTITY: u64 = 3 << 10;
+const ENTITY: u64 = 5 << 9;
 
 /// What the text of a scene takes while it is read.
 pub fn text(scene: &str) -> u64 {
