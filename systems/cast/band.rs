@@ -19,6 +19,8 @@ pub(crate) struct Band<'b> {
     pub counts: Counts,
     /// C, and C_A and C_G where they are kept.
     colors: Vec<Part<'b>>,
+    /// Blocks across.
+    across: usize,
     opened: &'b [u32],
     /// The number of its first opened block.
     first: u32,
@@ -39,7 +41,8 @@ pub fn cut<'b>(
     cast: &'b mut [u16],
 ) -> Vec<Band<'b>> {
     let height = (SIDE * step).max(LEAST);
-    let rows = height / POSITIONS * layout.blocks()[0];
+    let across = layout.blocks()[0];
+    let rows = height / POSITIONS * across;
     let mut left: Vec<Part<'b>> = colors
         .into_iter()
         .map(|Colors { lattice, fine }| Part { lattice: &mut lattice[..], fine: &mut fine[..] })
@@ -52,7 +55,7 @@ pub fn cut<'b>(
         let colors = left.iter_mut().map(|part| part.take(opened.len(), fine)).collect();
         let (top, bottom) = (number * height, ((number + 1) * height).min(down));
         let counts = Counts::default();
-        bands.push(Band { number, top, bottom, counts, colors, opened, first, cast });
+        bands.push(Band { number, top, bottom, counts, colors, across, opened, first, cast });
         first += fine as u32;
     }
     bands
@@ -64,6 +67,16 @@ impl Part<'_> {
         Part {
             lattice: self.lattice.split_off_mut(..lattice).unwrap_or_default(),
             fine: self.fine.split_off_mut(..fine).unwrap_or_default(),
+        }
+    }
+
+    /// Keeps a color at a place in a block, by its number and by that among those that are opened.
+    #[inline]
+    fn write(&mut self, (within, block, opened): (usize, usize, u32), color: &[f32; 4]) {
+        if within == 0 {
+            self.lattice[block] = *color;
+        } else {
+            self.fine[opened as usize][within] = *color;
         }
     }
 }
@@ -89,7 +102,7 @@ impl Band<'_> {
                     lanes = each(lanes)
                         .map(|lane| (lane, i + lane % SIDE * step, j + lane / SIDE * step))
                         .filter(|&(_, x, y)| x < across && y < self.bottom)
-                        .filter(|&(_, x, y)| step >= POSITIONS || self.is_open(layout, x, y))
+                        .filter(|&(_, x, y)| step >= POSITIONS || self.is_open(x, y))
                         .fold(0, |lanes, (lane, ..)| lanes | 1 << lane);
                 }
                 if lanes != 0 {
@@ -109,33 +122,35 @@ impl Band<'_> {
         self.bottom
     }
 
-    fn is_open(&self, layout: &Layout, i: usize, j: usize) -> bool {
-        self.opened[layout.place(i, j - self.top).1] != NONE
+    fn is_open(&self, x: usize, y: usize) -> bool {
+        self.opened[self.place([x, y]).1] != NONE
     }
 
-    /// Keeps what the `wanted` rays of a packet saw, of which `at` gives the positions.
+    /// Place of a position in its block, and of the block among the band's.
+    #[inline]
+    fn place(&self, [x, y]: [usize; 2]) -> (usize, usize) {
+        let y = y - self.top;
+        let within = (y % POSITIONS) * POSITIONS + x % POSITIONS;
+        (within, y / POSITIONS * self.across + x / POSITIONS)
+    }
+
+    /// Keeps what the `wanted` rays of a packet saw, of which `at` gives the positions; `None`: nothing, as it was kept before.
     #[inline]
     pub fn write(
         &mut self,
-        layout: &Layout,
         at: impl Fn(usize) -> [usize; 2],
         wanted: Lanes,
-        rays: &[RayColors; LANES],
+        rays: Option<&[RayColors; LANES]>,
     ) {
         for lane in each(wanted) {
-            let [x, y] = at(lane);
-            let (within, block) = layout.place(x, y - self.top);
-            let ray = &rays[lane];
-            for (part, color) in
-                self.colors.iter_mut().zip([&ray.full, &ray.attenuated, &ray.geometric])
-            {
-                if within == 0 {
-                    part.lattice[block] = *color;
-                } else {
-                    part.fine[(self.opened[block] - self.first) as usize][within] = *color;
-                }
-            }
+            let (within, block) = self.place(at(lane));
             self.cast[block] |= 1 << within;
+            let Some(rays) = rays else { continue };
+            let place = (within, block, self.opened[block].wrapping_sub(self.first));
+            let RayColors { full, attenuated, geometric } = &rays[lane];
+            for (part, color) in self.colors.iter_mut().zip([full, attenuated, geometric]) {
+                part.write(place, color);
+            }
         }
         self.counts.rays += u64::from(wanted.count_ones());
     }

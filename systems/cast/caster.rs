@@ -67,8 +67,8 @@ impl<M: Media> Caster for BeamCaster<'_, M> {
         colors: &mut [RayColors; LANES],
         scratch: &mut Self::Scratch,
         counts: &mut Counts,
-    ) {
-        dispatch!(self.level, simd => self.cast_with(simd, packet, colors, scratch, counts));
+    ) -> bool {
+        dispatch!(self.level, simd => self.cast_with(simd, packet, colors, scratch, counts))
     }
 }
 
@@ -81,7 +81,7 @@ impl<M: Media> BeamCaster<'_, M> {
         colors: &mut [RayColors; LANES],
         scratch: &mut Scratch<M::Entered>,
         counts: &mut Counts,
-    ) {
+    ) -> bool {
         let Scratch { entered, ahead, tiles, hits } = scratch;
         let no_hits = self.polygons.is_empty() && self.projections.is_empty();
         let mut range = *ahead;
@@ -93,8 +93,7 @@ impl<M: Media> BeamCaster<'_, M> {
             range[0] = self.media.seek(simd, entered, (range[0], packet.wanted), counts);
         }
         if range[0] >= range[1] && no_hits {
-            colors.fill(RayColors::default());
-            return;
+            return false;
         }
         let mut gathered = [Gathering::new([0; 2]); LANES];
         hits.clear();
@@ -145,5 +144,6 @@ impl<M: Media> BeamCaster<'_, M> {
                 }
             }
         }
+        true
     }
 }

@@ -132,7 +132,8 @@ impl<C: Caster> Casting<'_, C> {
         wanted: Lanes,
     ) {
         let packet = Packet { places, step: self.step, wanted };
-        self.caster.cast(&packet, &mut self.rays, &mut self.scratch, &mut band.counts);
-        band.write(self.layout, at, wanted, &self.rays);
+        let Self { caster, rays, scratch, .. } = self;
+        let met = caster.cast(&packet, rays, scratch, &mut band.counts);
+        band.write(at, wanted, met.then_some(&*rays));
     }
 }

@@ -104,6 +104,9 @@ pub fn meet<S: Simd, T: Texel>(
     }
 }
 
+/// From the first texel of a cell to its last, in a brick.
+const CELL: usize = ROW * ROW + ROW + 2;
+
 /// Tri-linear interpolation in the cell whose first texel is `first`: two texels at once, the axes y and z before x.
 #[inline(always)]
 fn sample<S: Simd, T: Texel>(
@@ -112,11 +115,11 @@ fn sample<S: Simd, T: Texel>(
     first: usize,
     [x, y, z]: [f32; 3],
 ) -> Vec4 {
-    let texels = &texels[first..][..ROW * ROW + ROW + 2];
-    let pair = |offset: usize| {
-        let pair = &texels[offset..][..2];
-        f32x8::from_slice(simd, &T::channels([pair[0], pair[1]]))
+    // Every cell ends within its brick.
+    let Some(texels) = texels.get(first..).and_then(<[T]>::first_chunk::<CELL>) else {
+        return Vec4::ZERO;
     };
+    let pair = |offset: usize| T::channels(simd, &[texels[offset], texels[offset + 1]]);
     let mix = |low: f32x8<S>, high: f32x8<S>, part: f32| (high - low) * part + low;
     let low = mix(pair(0), pair(ROW), y);
     let high = mix(pair(ROW * ROW), pair(ROW * ROW + ROW), y);

@@ -161,8 +161,11 @@ impl<S: Source> Medium<'_, S> {
     ) {
         let Entered { tile, bundle, window, .. } = entered;
         let last = (k + SAMPLES as i64).min(tile.some[1]) - 1;
-        let held =
-            (k..=last).rev().fold(0, |held, k| held << LANES | u64::from(self.held(tile, k)));
+        let held = if tile.all[0] <= k && k + SAMPLES as i64 <= tile.all[1] {
+            u64::MAX
+        } else {
+            (k..=last).rev().fold(0, |held, k| held << LANES | u64::from(self.held(tile, k)))
+        };
         let sight = Sight { cells: bundle.reach([k, last].map(|k| k - tile.middle)), held };
         window.look(simd, cells, tile, k, &sight);
         let [empty, looks] = window.looked(held);

@@ -22,14 +22,15 @@ pub(crate) trait Caster: Sync {
     type Scratch: Default;
     /// Finds what is empty for all rays of packets that lie within the outline of `group`: the next that are cast.
     fn scout(&self, group: &Packet, scratch: &mut Self::Scratch, counts: &mut Counts);
-    /// Casts the wanted rays of a packet and puts what they saw into `rays`.
+    /// Casts the wanted rays of a packet and puts what they saw into `rays`; whether there was anything to be seen, else
+    /// `rays` are as they were.
     fn cast(
         &self,
         packet: &Packet,
         rays: &mut [RayColors; LANES],
         scratch: &mut Self::Scratch,
         counts: &mut Counts,
-    );
+    ) -> bool;
 }
 
 /// Blocks that may be opened for each that lies along the picture's width and its height.

@@ -1,5 +1,6 @@
 //! The number types that gel is kept in.
 
+use fearless_simd::{Bytes, Simd, SimdBase, SimdCvtFloat, f32x8, i32x8, u8x16, u16x8, u32x4};
 use glam::Vec4;
 
 /// Gel that is nowhere more opaque than this is kept in 32 bits, where that is left open.
@@ -18,7 +19,7 @@ pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// Whether an opacity is above 0 in these numbers.
     fn is_seen(alpha: f32) -> bool;
     /// The channels of two texels, as stored numbers.
-    fn channels(pair: [Self; 2]) -> [f32; 8];
+    fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S>;
     /// What a stored number is multiplied by.
     const SCALE: f32;
 }
@@ -26,8 +27,8 @@ pub trait Texel: Copy + Default + Send + Sync + 'static {
 impl Texel for [f32; 4] {
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
+    fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S> {
+        f32x8::from_slice(simd, pair.as_flattened())
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self)
@@ -44,8 +45,8 @@ impl Texel for [f32; 4] {
 impl Texel for [u16; 4] {
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f32::from)
+    fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S> {
+        to_floats(simd, simd.widen_u16x8(u16x8::from_slice(simd, pair.as_flattened())))
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
@@ -63,8 +64,10 @@ impl Texel for [u16; 4] {
 impl Texel for [u8; 4] {
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn channels([a, b]: [Self; 2]) -> [f32; 8] {
-        [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f32::from)
+    fn channels<S: Simd>(simd: S, [a, b]: &[Self; 2]) -> f32x8<S> {
+        let bytes = [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], 0, 0, 0, 0, 0, 0, 0, 0];
+        let (low, _) = simd.widen_u8x16(u8x16::from_slice(simd, &bytes));
+        to_floats(simd, simd.widen_u16x8(low))
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
@@ -77,4 +80,12 @@ impl Texel for [u8; 4] {
         alpha * 255.0 + 0.5 >= 1.0
     }
     const SCALE: f32 = 1.0 / 255.0;
+}
+
+/// Eight whole numbers, below 2³¹, as floats.
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#[inline(always)]
+fn to_floats<S: Simd>(simd: S, (low, high): (u32x4<S>, u32x4<S>)) -> f32x8<S> {
+    let whole: i32x8<S> = simd.combine_u32x4(low, high).bitcast();
+    f32x8::float_from(whole)
 }
