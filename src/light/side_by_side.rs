@@ -6,6 +6,7 @@
 use glam::Vec3;
 
 use super::shading::{Lamp, Reflectance};
+use crate::volume::gradients::{MEASURABLE, normal};
 
 /// A vector at each of `N` places, axis by axis or channel by channel.
 pub(crate) type Vectors<const N: usize> = [[f32; N]; 3];
@@ -32,15 +33,19 @@ pub(crate) fn set<const N: usize>(vectors: &mut Vectors<N>, at: usize, vector: V
 #[inline(always)]
 pub(crate) fn normals<const N: usize>(gradients: &Vectors<N>) -> Vectors<N> {
     let mut made = [[0.0; N]; 3];
+    let mut measurable = true;
     for at in 0..N {
-        let [x, y, z] =
-            [gradients[0][at], gradients[1][at], gradients[2][at]].map(|part| -f64::from(part));
-        let per = 1.0 / (x * x + y * y + z * z).sqrt();
-        // The gradient zero has no direction: it is infinitely short.
-        let per = if per < f64::INFINITY { per } else { 0.0 };
-        made[0][at] = (x * per) as f32;
-        made[1][at] = (y * per) as f32;
-        made[2][at] = (z * per) as f32;
+        let [x, y, z] = [-gradients[0][at], -gradients[1][at], -gradients[2][at]];
+        let square = x * x + y * y + z * z;
+        let clear = x.abs() + y.abs() + z.abs() == 0.0;
+        measurable &= clear | MEASURABLE.contains(&square);
+        let per = if clear { 0.0 } else { 1.0 / square.sqrt() };
+        made[0][at] = x * per;
+        made[1][at] = y * per;
+        made[2][at] = z * per;
+    }
+    if !measurable {
+        (0..N).for_each(|at| set(&mut made, at, normal(one(gradients, at).to_array())));
     }
     made
 }
@@ -125,7 +130,6 @@ mod tests {
 
     use super::*;
     use crate::components::{Color, Light, Toward};
-    use crate::volume::gradients::normal;
 
     fn vector() -> impl Strategy<Value = [f32; 3]> {
         let part = prop_oneof![4 => -1.0_f32..1.0, 1 => Just(0.0), 1 => -1e30_f32..1e30];

@@ -221,9 +221,17 @@ fn finite(gradient: [f32; 3]) -> [f32; 3] {
     if x * 0.0 + y * 0.0 + z * 0.0 == 0.0 { gradient } else { [0.0; 3] }
 }
 
+/// Squares of lengths that 32 bits hold to the last bit: of other vectors lengths are taken in 64.
+pub(crate) const MEASURABLE: std::ops::Range<f32> = 1e-24..1e24;
+
 /// N: the unit vector along which the scalars fall, out of what is dense; zero where they do not change.
 #[must_use]
 pub fn normal(gradient: [f32; 3]) -> Vec3 {
+    let turned = -Vec3::from(gradient);
+    let square = turned.length_squared();
+    if MEASURABLE.contains(&square) {
+        return turned * (1.0 / square.sqrt());
+    }
     // In 64 bits no gradient of 32 bits is too short or too long to have a direction.
     (-DVec3::from(gradient.map(f64::from))).normalize_or_zero().as_vec3()
 }

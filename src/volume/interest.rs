@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::bricks::{Bricks, EDGE, VOXELS};
-use super::gel::{CELLS, EMPTY, Texel};
+use super::texel::{CELLS, EMPTY, Texel};
 use crate::components::TexelKind;
 
 /// The first of each row of eight bits.
@@ -103,7 +103,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::volume::gel::Texels;
+    use crate::volume::texels::Texels;
 
     fn check<T: Texel>(voxels: &[f32], size: [usize; 3], kind: TexelKind) {
         let at = |[x, y, z]: [usize; 3]| (z * size[1] + y) * size[0] + x;

@@ -22,3 +22,5 @@ pub mod pyramid;
 pub mod ranges;
 pub mod scene_volumes;
 pub mod seen;
+pub mod texel;
+pub mod texels;

@@ -11,7 +11,7 @@ use glam::Vec4;
 use super::lanes::{LANES, Lanes, each};
 use super::window::{Cells, Window};
 use crate::view::walk::{FRACTION_BITS, PLACE_BITS, Tile};
-use crate::volume::gel::{CELLS, ROW, TEXELS, Texel, TexelSlices};
+use crate::volume::gel::{CELLS, ROW, Texel, TexelSlices};
 use crate::volume::pyramid::PyramidSlices;
 
 /// What rays sample.
@@ -91,12 +91,11 @@ pub fn meet<S: Simd, T: Texel>(
     let parts = [places.parts(0), places.parts(1), places.parts(2)];
     for lane in each(lanes) {
         let part = [parts[0][lane], parts[1][lane], parts[2][lane]];
-        let first = first[lane] as usize;
-        let brick = window.brick(k, lane);
-        let lit = sample(simd, gel.texels.texels(brick), first, part);
+        let place = (window.brick(k, lane), first[lane] as usize, part);
+        let lit = sample(simd, gel.texels, place);
         seen[lane] = match (fade, gel.ambient) {
             (Some(fade), Some(ambient)) => {
-                let ambient = sample(simd, ambient.texels(brick), first, part);
+                let ambient = sample(simd, ambient, place);
                 (lit.truncate() * fade + ambient.truncate()).extend(lit.w)
             }
             _ => lit,
@@ -107,16 +106,15 @@ pub fn meet<S: Simd, T: Texel>(
 /// From the first texel of a cell to its last, in a brick.
 const CELL: usize = ROW * ROW + ROW + 2;
 
-/// Tri-linear interpolation in the cell whose first texel is `first`: two texels at once, the axes y and z before x.
+/// Tri-linear interpolation in the cell of a brick whose first texel is `first`: two texels at once, the axes y and z before x.
 #[inline(always)]
 fn sample<S: Simd, T: Texel>(
     simd: S,
-    texels: &[T; TEXELS],
-    first: usize,
-    [x, y, z]: [f32; 3],
+    gel: TexelSlices<'_, T>,
+    (brick, first, [x, y, z]): (u32, usize, [f32; 3]),
 ) -> Vec4 {
     // Every cell ends within its brick.
-    let Some(texels) = texels.get(first..).and_then(<[T]>::first_chunk::<CELL>) else {
+    let Some(texels) = gel.texels(brick).get(first..).and_then(<[T]>::first_chunk::<CELL>) else {
         return Vec4::ZERO;
     };
     let pair = |offset: usize| T::channels(simd, &[texels[offset], texels[offset + 1]]);
@@ -124,6 +122,6 @@ fn sample<S: Simd, T: Texel>(
     let low = mix(pair(0), pair(ROW), y);
     let high = mix(pair(ROW * ROW), pair(ROW * ROW + ROW), y);
     let (low, high) = simd.split_f32x8(mix(low, high, z));
-    let sample: f32x4<S> = ((high - low) * x + low) * T::SCALE;
-    Vec4::from_slice(sample.as_slice())
+    let sample: f32x4<S> = (high - low) * x + low;
+    Vec4::from_slice(sample.as_slice()) * gel.scale()
 }

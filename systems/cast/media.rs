@@ -1,10 +1,11 @@
 //! What the rays of a view meet of volumes: none, one, or several whose gels overlap.
 
 use fearless_simd::Simd;
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 
 use super::crossing::Sheet;
 use super::lanes::{Lanes, Packet};
+use crate::view::composite::{recolor, thicken};
 use crate::view::samples::Counts;
 
 /// Gel as a packet of rays meets it, sample by sample. All rays of a view have their samples at the same depths.
@@ -84,4 +85,15 @@ impl Media for Nothing {
     fn slab(&self, (): &mut (), _: i64, _: usize) -> (DVec3, f64) {
         (DVec3::ZERO, 0.0)
     }
+}
+
+/// A sample of associated colour and opacity per opacity unit, as a slab `ratio` units thick.
+#[inline]
+pub fn slab(sample: Vec4, ratio: f64) -> (DVec3, f64) {
+    let (color, opacity) = (sample.truncate().as_dvec3(), f64::from(sample.w).min(1.0));
+    if ratio == 1.0 {
+        return (color, opacity);
+    }
+    let thick = thicken(opacity, ratio);
+    (color * recolor(opacity, thick, ratio), thick)
 }

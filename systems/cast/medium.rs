@@ -9,11 +9,10 @@ use super::crossing::{Crossings, Sheet};
 use super::cue::Cue;
 use super::kernel;
 use super::lanes::{LANES, Lanes, Packet};
-use super::media::Media;
+use super::media::{Media, slab};
 use super::shaft::Dust;
 use super::window::{Cells, SAMPLES, Sight, Window};
 use crate::view::camera::Camera;
-use crate::view::composite::{recolor, thicken};
 use crate::view::ray::Ray;
 use crate::view::samples::Counts;
 use crate::view::walk::{Tile, Walk};
@@ -305,17 +304,6 @@ impl<S: Source> Media for Medium<'_, S> {
     fn sheet(&self, entered: &Entered, lane: usize) -> Sheet {
         entered.crossings.sheets[lane]
     }
-}
-
-/// A sample of associated colour and opacity per opacity unit, as a slab `ratio` units thick.
-#[inline]
-pub fn slab(sample: Vec4, ratio: f64) -> (DVec3, f64) {
-    let (color, opacity) = (sample.truncate().as_dvec3(), f64::from(sample.w).min(1.0));
-    if ratio == 1.0 {
-        return (color, opacity);
-    }
-    let thick = thicken(opacity, ratio);
-    (color * recolor(opacity, thick, ratio), thick)
 }
 
 #[cfg(test)]

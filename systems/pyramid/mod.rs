@@ -7,11 +7,10 @@ use crate::components::{Classify, Clip, Filter, Material, OpacityUnit, Skip, Tex
 use crate::error::Error;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
-use crate::volume::bricks::Bricks;
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::Cut;
 use crate::volume::coefficients::Coefficients;
-use crate::volume::gel::{CELLS, Gel, GelBricks};
+use crate::volume::gel::{CELLS, Gel, GelBricks, Shown};
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::interest::Interest;
 use crate::volume::pyramid::Pyramid;
@@ -27,8 +26,8 @@ pub(crate) struct StackPyramid;
 #[derive(PartialEq)]
 enum Inputs {
     Gel(GelBricks),
-    /// Gel that is made of these opacities, in numbers of this kind.
-    Layer(Bricks<f32>, TexelKind),
+    /// Gel of which that is known, in numbers of this kind.
+    Layer(Shown, TexelKind),
     Values(Box<Values>),
 }
 
@@ -61,8 +60,8 @@ impl System for StackPyramid {
         for (entity, gel) in &mut world.query::<(Entity, &Gel)>() {
             if values.iter().all(|volume| volume.entity != entity) {
                 // The ambient gel has the same opacities, so one pyramid serves both.
-                let inputs = match &gel.opacity {
-                    Some(opacity) => Inputs::Layer(opacity.clone(), gel.lit.kind()),
+                let inputs = match &gel.shown {
+                    Some(shown) => Inputs::Layer(shown.clone(), gel.lit.kind()),
                     None => Inputs::Gel(gel.lit.clone()),
                 };
                 out.derive(entity, inputs, |inputs| Ok(inputs.pyramid(watch)))?;
@@ -112,7 +111,7 @@ impl System for StackPyramid {
 impl Inputs {
     fn pyramid(&self, watch: &Watch) -> Pyramid {
         match self {
-            Self::Layer(opacity, kind) => Pyramid::of_layer(Interest::of(opacity, *kind)),
+            Self::Layer(shown, _) => Pyramid::of_layer(Interest::clone(&shown.interest)),
             Self::Gel(gel) => with_texels!(gel, texels => Pyramid::of(texels)),
             Self::Values(values) => values.pyramid(watch),
         }

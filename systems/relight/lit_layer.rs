@@ -1,6 +1,7 @@
 //! A layer of opacities and colours under its lights: `c_T = Σ c_i β_i` (equation 4), made into gel.
 
-use glam::{Vec3, Vec4};
+use fearless_simd::Simd;
+use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::components::TexelKind;
@@ -18,69 +19,120 @@ pub(crate) struct LitLayer<'a> {
     pub base: &'a Bricks<[f32; 3]>,
     /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
     pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
+    /// What no channel of `c_T` is above; see [`of_brightness`](Self::of_brightness).
+    pub brightest: f32,
 }
 
 impl LitLayer<'_> {
-    /// The associated gel: `c_T · α` and α. `Auto` is decided by what there is.
+    /// The associated gel: `c_T · α` and α, and its interesting cells. `Auto` is decided by what there is.
     #[must_use]
-    pub fn gel(&self, kind: TexelKind) -> GelBricks {
+    pub fn gel(&self, kind: TexelKind) -> (GelBricks, Interest) {
         let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
         let interest = Interest::of(self.opacity, kind);
+        (self.in_cells(&interest, kind), interest)
+    }
+
+    /// The gel where some cells are interesting, in numbers of `kind`.
+    #[must_use]
+    pub fn in_cells(&self, interest: &Interest, kind: TexelKind) -> GelBricks {
         let [nx, ny, _] = interest.counts;
         let holds = |[x, y, z]: [usize; 3]| interest.holds((z * ny + y) * nx + x);
         GelBricks::make(kind, self.opacity.size(), holds, self)
     }
 
-    /// 16-bit texels where their steps are small against the gel and none of its colours is above 1; else 32-bit ones.
+    /// 16-bit texels where their steps are small against the gel, which is opaque somewhere and nowhere very bright; else 32-bit
+    /// ones.
     fn suited(&self) -> TexelKind {
         let bricks: Vec<_> = self.opacity.stored().collect();
-        let opaque = bricks.par_iter().any(|(_, alpha)| alpha.iter().any(|alpha| *alpha > FAINT));
-        let bright = |place: BrickPlace| {
+        let opaque =
+            || bricks.par_iter().any(|(_, alpha)| alpha.iter().any(|alpha| *alpha > FAINT));
+        if self.brightest <= BRIGHT && opaque() { TexelKind::U16 } else { TexelKind::F32 }
+    }
+
+    /// With what no channel of `c_T` is above: as it is `known`, else as near as can be told brick by brick.
+    #[must_use]
+    pub fn of_brightness(self, known: Option<f32>) -> Self {
+        Self { brightest: known.unwrap_or_else(|| self.measured()), ..self }
+    }
+
+    fn measured(&self) -> f32 {
+        let bricks: Vec<_> = self.opacity.stored().map(|(place, _)| place).collect();
+        let most = |place: &BrickPlace| {
             let channel =
                 |bricks: &Bricks<[f32; 3]>| bricks.brick(place.brick).map_or(0.0, brightest);
             let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, VoxelStrength::most);
             let shadowed = self.shadowed.iter();
             let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
-            channel(self.base) + shadowed > BRIGHT
+            channel(self.base) + shadowed
         };
-        let bright = || bricks.par_iter().any(|(place, _)| bright(*place));
-        if opaque && !bright() { TexelKind::U16 } else { TexelKind::F32 }
+        bricks.par_iter().map(most).reduce(|| 0.0, f32::max)
     }
 
-    /// Fills the texels from the first on that are of some brick's voxels: of `extent` of its first ones.
+    /// Fills the texels from the first on that are of some brick's voxels: of `extent` of its first ones, of which that along x
+    /// is a row or one voxel. Colors are multiplied by `per_full`.
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn fill_from<T: Texel>(&self, brick: [usize; 3], extent: [usize; 3], texels: &mut [T]) {
+    fn fill_from<S: Simd, T: Texel>(
+        &self,
+        simd: S,
+        (brick, extent): ([usize; 3], [usize; 3]),
+        per_full: f32,
+        texels: &mut [T],
+    ) {
         let Some(opacity) = self.opacity.brick(brick) else { return };
         let base = self.base.brick(brick);
         for (z, y) in (0..extent[2]).flat_map(|z| (0..extent[1]).map(move |y| (z, y))) {
             let within = (z * EDGE + y) * EDGE;
-            let opacity = row_of(opacity, within);
             let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
-            if opacity[..made.len()].iter().all(|alpha| *alpha <= 0.0) {
+            let Some(made) = made.first_chunk_mut::<EDGE>() else {
+                // Of a row in another brick nothing but its first voxel is brought near.
+                let alpha = opacity[within];
+                if alpha > 0.0 {
+                    let base = base.map_or([0.0; 3], |base| base[within]);
+                    let color = self.color(base, brick, within) * alpha * per_full;
+                    made[0] = T::store(color.extend(alpha));
+                }
+                continue;
+            };
+            let opacity = row_of(opacity, within);
+            if opacity.iter().all(|alpha| *alpha <= 0.0) {
                 continue;
             }
             let mut colors = base.map_or([[0.0; 3]; EDGE], |base| *row_of(base, within));
-            for (light, strength) in &self.shadowed {
-                let Some(light) = light.brick(brick) else { continue };
-                let betas = betas(*strength, brick, within);
-                for ((color, light), beta) in
-                    colors.iter_mut().zip(row_of(light, within)).zip(betas)
-                {
-                    *color = (Vec3::from(*color) + Vec3::from(*light) * beta).to_array();
+            if !self.shadowed.is_empty() {
+                let lit = |x: usize| self.color(colors[x], brick, within + x).to_array();
+                colors = std::array::from_fn(lit);
+            }
+            let mut channels = [[0.0; EDGE], [0.0; EDGE], [0.0; EDGE], *opacity];
+            for x in 0..EDGE {
+                for channel in 0..3 {
+                    channels[channel][x] = colors[x][channel] * opacity[x] * per_full;
                 }
             }
-            for ((texel, [r, g, b]), &a) in made.iter_mut().zip(colors).zip(opacity) {
-                *texel = T::store(Vec4::new(r * a, g * a, b * a, a));
-            }
+            *made = T::store_row(simd, &channels);
         }
+    }
+
+    /// `c_T` of a voxel of a brick, of which `base` is what no shadow weakens.
+    fn color(&self, base: [f32; 3], brick: [usize; 3], within: usize) -> Vec3 {
+        let lights = self.shadowed.iter().filter_map(|(light, strength)| {
+            let light = light.brick(brick)?[within];
+            Some(Vec3::from(light) * beta(*strength, brick, within))
+        });
+        lights.fold(Vec3::from(base), |color, light| color + light)
     }
 }
 
 impl Fill for LitLayer<'_> {
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn fill<T: Texel>(&self, _: [usize; 3], brick: [usize; 3], texels: &mut [T; TEXELS]) {
+    fn fill<S: Simd, T: Texel>(
+        &self,
+        simd: S,
+        (_, brick): ([usize; 3], [usize; 3]),
+        full: f32,
+        texels: &mut [T; TEXELS],
+    ) {
         // Its own voxels, then the first plane, line or voxel of each brick after it; what a brick has outside the grid is clear.
         let counts = self.opacity.counts();
         for corner in 0..8_usize {
@@ -89,9 +141,13 @@ impl Fill for LitLayer<'_> {
             if (0..3).all(|axis| from[axis] < counts[axis]) {
                 let extent = after.map(|after| if after == 1 { 1 } else { EDGE });
                 let [x, y, z] = after.map(|after| after * EDGE);
-                self.fill_from(from, extent, &mut texels[(z * ROW + y) * ROW + x..]);
+                self.fill_from(simd, (from, extent), 1.0 / full, &mut texels[(z * ROW + y) * ROW + x..]);
             }
         }
+    }
+
+    fn brightest(&self) -> f32 {
+        self.brightest.max(1.0)
     }
 }
 
@@ -111,17 +167,19 @@ fn brightest(colors: &[[f32; 3]; VOXELS]) -> f32 {
     most.into_iter().fold(0.0, f32::max)
 }
 
-/// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
-fn betas(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
-    let Some(strength) = strength else { return [1.0; EDGE] };
-    let Some(stored) = strength.voxels.brick(brick) else { return [0.0; EDGE] };
-    let [x, y, z] = brick.map(|brick| brick * EDGE);
-    let [y, z] = [y + within / EDGE % EDGE, z + within / (EDGE * EDGE)];
-    std::array::from_fn(|at| strength.beta(stored[within + at], [x + at, y, z]))
+/// β of a voxel of `brick`: 1 without a buffer, 0 where the buffer stores nothing.
+fn beta(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> f32 {
+    let Some(strength) = strength else { return 1.0 };
+    let Some(stored) = strength.voxels.brick(brick) else { return 0.0 };
+    let place = [within % EDGE, within / EDGE % EDGE, within / (EDGE * EDGE)];
+    let voxel = std::array::from_fn(|axis| brick[axis] * EDGE + place[axis]);
+    strength.beta(stored[within], voxel)
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec4;
+
     use super::*;
     use crate::volume::gel::{CELLS, EMPTY};
 
@@ -154,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn texels_are_16_bit_for_gel_that_is_opaque_somewhere_and_lit_within_1() {
+    fn texels_are_16_bit_for_gel_that_is_opaque_somewhere_and_not_very_bright() {
         let kind = |alpha: f32, light: f32| {
             let opacity = Bricks::make(SIZE, |_, brick| {
                 brick.fill(alpha);
@@ -164,10 +222,11 @@ mod tests {
                 brick.fill([light, 0.5, 0.0]);
                 true
             });
-            LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new() }.suited()
+            LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new(), brightest: light }.suited()
         };
         assert_eq!(kind(0.5, 1.0), TexelKind::U16);
-        assert_eq!([kind(0.05, 1.0), kind(0.5, 1.5)], [TexelKind::F32; 2]);
+        assert_eq!(kind(0.5, 3.9), TexelKind::U16);
+        assert_eq!([kind(0.05, 1.0), kind(0.5, 4.1)], [TexelKind::F32; 2]);
     }
 
     #[test]
@@ -178,7 +237,8 @@ mod tests {
         let half = opacity.map(|_, _, made| made.fill(32768));
         let strength = VoxelStrength { voxels: half, full: 0.5, receding: Receding::NONE };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
-        let gel = LitLayer { opacity: &opacity, base: &base, shadowed }.gel(TexelKind::F32);
+        let gel = LitLayer { opacity: &opacity, base: &base, shadowed, brightest: 1.0 };
+        let (gel, _) = gel.gel(TexelKind::F32);
         let beta = 32768.0 / 65535.0 * 0.5;
         for (x, y, z) in (0..3400).map(|i| (i % 20, i / 20 % 17, i / 340)) {
             let alpha = alpha([x, y, z]);
@@ -192,8 +252,9 @@ mod tests {
     fn a_brick_is_held_exactly_if_one_of_its_nine_cubed_voxels_is_interesting() {
         let opacity = opacity();
         let base = colors(&opacity, [1.0; 3]);
-        let lit_layer = LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new() };
-        let GelBricks::F32(gel) = lit_layer.gel(TexelKind::F32) else { panic!("as asked for") };
+        let shadowed = Vec::new();
+        let lit_layer = LitLayer { opacity: &opacity, base: &base, shadowed, brightest: 1.0 };
+        let (GelBricks::F32(gel), _) = lit_layer.gel(TexelKind::F32) else { panic!("as asked for") };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {

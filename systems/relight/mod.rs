@@ -3,6 +3,8 @@
 mod lit_layer;
 mod planned;
 
+use std::sync::Arc;
+
 use glam::Vec4;
 use hecs::{Entity, World};
 
@@ -14,9 +16,9 @@ use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
 use crate::volume::bricks::Bricks;
-use crate::volume::gel::Gel;
-use crate::volume::gel::GelBricks;
+use crate::volume::gel::{Gel, GelBricks, Shown};
 use crate::volume::grid::{Grid, Painted};
+use crate::volume::labels::Tint;
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
 use crate::volume::scene_volumes::{Content, SceneVolume, gels, with_content};
@@ -32,6 +34,8 @@ struct Inputs {
     unlit: Unlit,
     /// Of each light that casts a shadow, in the order of the scene; `None` is β = 1.
     strengths: Vec<Option<VoxelStrength>>,
+    /// What no color is above, where that is known beforehand.
+    brightest: Option<f32>,
     texel: TexelKind,
 }
 
@@ -59,7 +63,10 @@ impl System for Relight {
             // Painted voxels bring their light with them.
             let shaded = matches!(unlit, Unlit::Layer(..));
             let strengths = if shaded { strengths(world, entity) } else { Vec::new() };
-            out.derive(entity, Inputs { unlit, strengths, texel }, |inputs| {
+            // The colors of polygons are told sooner brick by brick, as those of a tint are, which has one a voxel.
+            let other = world.satisfies::<hecs::Or<&Composite, &Tint>>(entity);
+            let brightest = if shaded && !other { planned::brightest(world, entity) } else { None };
+            out.derive(entity, Inputs { unlit, strengths, brightest, texel }, |inputs| {
                 watch.check()?;
                 inputs.relight()
             })?;
@@ -142,7 +149,7 @@ impl Inputs {
                 let kind =
                     if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
                 let lit = GelBricks::make(kind, grid.size, holds, &fill);
-                Ok(Gel { lit, ambient: None, opacity: None })
+                Ok(Gel { lit, ambient: None, shown: None })
             }
             Unlit::Layer(opacity, colors) => {
                 let strengths = || self.strengths.iter().flatten();
@@ -156,13 +163,15 @@ impl Inputs {
                 let shadowed = colors.shadowed.iter().enumerate();
                 let strength = |i: usize| self.strengths.get(i).and_then(Option::as_ref);
                 let shadowed = shadowed.map(|(i, colors)| (colors, strength(i))).collect();
-                let lit = LitLayer { opacity, base: &colors.base, shadowed }.gel(self.texel);
-                // Both parts in the same numbers.
-                let texel = lit.kind();
-                let ambient = colors.ambient.as_ref().map(|ambient| {
-                    LitLayer { opacity, base: ambient, shadowed: Vec::new() }.gel(texel)
+                let layer = LitLayer { opacity, base: &colors.base, shadowed, brightest: 0.0 };
+                let (lit, interest) = layer.of_brightness(self.brightest).gel(self.texel);
+                let ambient = colors.ambient.as_ref().map(|base| {
+                    let layer = LitLayer { opacity, base, shadowed: Vec::new(), brightest: 0.0 };
+                    // Both parts in the same numbers.
+                    layer.of_brightness(self.brightest).in_cells(&interest, lit.kind())
                 });
-                Ok(Gel { lit, ambient, opacity: Some(opacity.clone()) })
+                let shown = Shown { opacity: opacity.clone(), interest: Arc::new(interest) };
+                Ok(Gel { lit, ambient, shown: Some(shown) })
             }
         }
     }
