@@ -78,16 +78,16 @@ pub enum Skip {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum TexelKind {
-    /// 16-bit fixed point where the gel has an opacity above 1/16 and no colour above 1; 32-bit floats else, and for
+    /// 16-bit fixed point where the gel has an opacity above 1/16 and no colour above 4; 32-bit floats else, and for
     /// paint in floats.
     Auto,
     /// 32-bit floats: 16 bytes a voxel.
     F32,
-    /// 16-bit fixed point, error 2⁻¹⁷ a channel of the gel and about 3e-5 of a picture: 8 bytes a voxel. Colours above 1 are
-    /// cut to 1.
+    /// 16-bit fixed point, error 2⁻¹⁷ a channel of the gel and about 3e-5 of a picture: 8 bytes a voxel. Where colours may be
+    /// above 1 they are kept in parts of the brightest, and their error is as much greater.
     U16,
     /// 8-bit fixed point, error 2⁻⁹ a channel of the gel and about 0.01 of a picture: 4 bytes a voxel. Colours above 1 are
-    /// cut to 1.
+    /// kept as in 16 bits.
     U8,
 }
 
