@@ -28,13 +28,9 @@ pub fn exact_pixel<C: Caster>(
             let held = |lane: &usize| i + lane % SIDE < side && j + lane / SIDE < side;
             let wanted = (0..LANES).filter(held).fold(0, |set, lane| set | (1 as Lanes) << lane);
             let place = |pixel: usize, at: usize| (pixel * POSITIONS + at) as i64 - reach as i64;
-            caster.cast(
-                &Packet::new([place(x, i), place(y, j)], 1, wanted),
-                &mut rays,
-                scratch,
-                counts,
-            );
-            for lane in each(wanted) {
+            let packet = Packet::new([place(x, i), place(y, j)], 1, wanted);
+            let met = caster.cast(&packet, &mut rays, scratch, counts);
+            for lane in each(if met { wanted } else { 0 }) {
                 let at = [first + i + lane % SIDE, first + j + lane / SIDE];
                 let (within, block) = layout.place(at[0], at[1]);
                 if within == 0 {
@@ -61,5 +57,45 @@ fn all_open(layout: Layout) -> SampleArray {
         cast: vec![u16::MAX; blocks],
         splits: vec![ALL_SPLIT; blocks],
         counts: Counts::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// White to the left of the middle of pixel (0, 0), where alone a packet meets anything.
+    struct Half;
+
+    impl Caster for Half {
+        type Scratch = ();
+
+        fn scout(&self, _: &Packet, (): &mut (), _: &mut Counts) {}
+
+        fn cast(
+            &self,
+            packet: &Packet,
+            rays: &mut [RayColors; LANES],
+            (): &mut (),
+            _: &mut Counts,
+        ) -> bool {
+            let is_left = |lane: usize| packet.position(lane)[0] < 0;
+            let met = each(packet.wanted).any(is_left);
+            for lane in each(if met { packet.wanted } else { 0 }) {
+                rays[lane].full = if is_left(lane) { [1.0; 4] } else { [0.0; 4] };
+            }
+            met
+        }
+    }
+
+    #[test]
+    fn what_a_packet_does_not_meet_is_clear_whatever_the_one_before_it_saw() {
+        let pixel = |x: usize| {
+            let looks = (PixelFilter::Box, None);
+            exact_pixel(&Half, [x, 3], looks, &mut (), &mut Counts::default()).pixels[0]
+        };
+        // Half of the box lies left of the middle, and a quarter of a position's way more is interpolated.
+        assert!((pixel(0)[3] - 0.375).abs() < 1e-6, "{:?}", pixel(0));
+        assert_eq!(pixel(1), [0.0; 4]);
     }
 }

@@ -24,6 +24,7 @@ pub(crate) trait Caster: Sync {
     fn scout(&self, group: &Packet, scratch: &mut Self::Scratch, counts: &mut Counts);
     /// Casts the wanted rays of a packet and puts what they saw into `rays`; whether there was anything to be seen, else
     /// `rays` are as they were.
+    #[must_use]
     fn cast(
         &self,
         packet: &Packet,
