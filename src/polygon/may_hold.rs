@@ -132,8 +132,11 @@ impl MayHold {
             after(z, nz)
                 .any(|z| after(y, ny).any(|y| after(x, nx).any(|x| self.held[self.at([x, y, z])])))
         };
-        let stored = (0..self.held.len()).filter(|at| stored(*at)).count() as u64;
-        gel::bytes_of(kind, stored) + self.held.len() as u64 * 4
+        let layer = |z: usize| (nx * ny * z..nx * ny * (z + 1)).filter(|at| stored(*at)).count();
+        let layers: Vec<u64> = (0..nz).map(|z| layer(z) as u64).collect();
+        // While aprons are filled the faces of two layers are kept beside.
+        let two = layers.windows(2).map(|two| two[0] + two[1]).max().unwrap_or(layers[0]);
+        gel::bytes_of(kind, layers.iter().sum(), two) + self.held.len() as u64 * 4
     }
 
     fn at(&self, [x, y, z]: [usize; 3]) -> usize {

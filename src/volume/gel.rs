@@ -6,9 +6,9 @@ use crate::components::TexelKind;
 use crate::schedule::Product;
 use crate::volume::bricks::Bricks;
 use crate::volume::interest::Interest;
-pub use crate::volume::texel::{BRIGHT, CELLS, EMPTY, FAINT, Texel};
-pub(crate) use crate::volume::texels::ROW;
-pub use crate::volume::texels::{Fill, TEXELS, TexelSlices, Texels};
+pub use crate::volume::texel::{BRIGHT, CELLS, EMPTY, FAINT, TEXELS, Texel};
+pub(crate) use crate::volume::texel::{FACES, ROW};
+pub use crate::volume::texels::{Fill, TexelSlices, Texels};
 
 /// The coloured, semi-transparent gel that rays meet: c_T · α_C and α_C (equation 4).
 #[derive(Debug, Clone, PartialEq)]
@@ -92,13 +92,13 @@ impl GelBricks {
     }
 }
 
-/// The most bytes of `stored` bricks of gel, and of the one of zeros.
+/// The most bytes of `stored` bricks of gel and of the one of zeros, with the faces of `beside` of them.
 #[must_use]
-pub(crate) fn bytes_of(kind: TexelKind, stored: u64) -> u64 {
+pub(crate) fn bytes_of(kind: TexelKind, stored: u64, beside: u64) -> u64 {
     let texel = match kind {
         TexelKind::Auto | TexelKind::F32 => 16,
         TexelKind::U16 => 8,
         TexelKind::U8 => 4,
     };
-    (stored + 1) * TEXELS as u64 * texel
+    ((stored + 1) * TEXELS as u64 + beside * FACES as u64) * texel
 }

@@ -7,6 +7,15 @@ use glam::Vec4;
 /// Cells along one edge of a brick.
 pub const CELLS: usize = 8;
 
+/// Texels along one edge of a brick.
+pub(crate) const ROW: usize = CELLS + 1;
+
+/// Texels of a brick.
+pub const TEXELS: usize = ROW * ROW * ROW;
+
+/// Texels of a brick's three first faces, with each edge twice.
+pub(crate) const FACES: usize = 3 * CELLS * CELLS;
+
 /// The table's entry for a brick that is not stored.
 pub const EMPTY: u32 = u32::MAX;
 

@@ -4,6 +4,8 @@
 //! repeats the next brick's first, so that a sample touches one brick. Texels beyond the last voxel are zero, so that a
 //! sample on the last plane of voxels needs no clamp. A brick without an interesting voxel takes no memory.
 
+mod apron;
+
 use std::sync::Arc;
 
 use fearless_simd::{Level, Simd, dispatch};
@@ -11,12 +13,7 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::volume::cells::marked_cells;
-use crate::volume::texel::{CELLS, EMPTY, Texel};
-
-/// Texels along one edge of a brick.
-pub(crate) const ROW: usize = CELLS + 1;
-/// Texels of a brick.
-pub const TEXELS: usize = ROW * ROW * ROW;
+use crate::volume::texel::{CELLS, EMPTY, ROW, TEXELS, Texel};
 
 /// The gel in one number type. Shared by pointer, equality is identity.
 #[derive(Debug)]
@@ -46,8 +43,8 @@ impl<T> PartialEq for Texels<T> {
 
 /// What gel is made of.
 pub trait Fill: Sync {
-    /// Fills the 9³ texels of a brick, which come clear, with associated RGBA of the voxels from its first on; those outside
-    /// the grid stay clear. `place` is the size of the grid in voxels, and which brick of it that is. Colors are kept in parts of `full`.
+    /// Fills the texels of the 8³ voxels of a brick, which come clear, with associated RGBA; those outside the grid stay clear.
+    /// `place` is the size of the grid in voxels, and which brick of it that is. Colors are kept in parts of `full`.
     fn fill<S: Simd, T: Texel>(
         &self,
         simd: S,
@@ -62,8 +59,8 @@ pub trait Fill: Sync {
     }
 }
 
-/// Row by row: of 9 voxels from voxel `first` on along x, which come clear; no color of theirs is above 1. It is asked for voxels inside the grid alone; the
-/// row is as short as the grid ends.
+/// Row by row: of 8 voxels from voxel `first` on along x, which come clear; no color of theirs is above 1. It is asked for
+/// voxels inside the grid alone; the row is as short as the grid ends.
 impl<F: Fn([usize; 3], &mut [Vec4]) + Sync> Fill for F {
     fn fill<S: Simd, T: Texel>(
         &self,
@@ -73,8 +70,8 @@ impl<F: Fn([usize; 3], &mut [Vec4]) + Sync> Fill for F {
         texels: &mut [T; TEXELS],
     ) {
         let first = brick.map(|b| b * CELLS);
-        let extent: [usize; 3] = std::array::from_fn(|axis| ROW.min(size[axis] - first[axis]));
-        let mut row = [Vec4::ZERO; ROW];
+        let extent: [usize; 3] = std::array::from_fn(|axis| CELLS.min(size[axis] - first[axis]));
+        let mut row = [Vec4::ZERO; CELLS];
         for (z, y) in (0..extent[2]).flat_map(|z| (0..extent[1]).map(move |y| (z, y))) {
             row.fill(Vec4::ZERO);
             self([first[0], first[1] + y, first[2] + z], &mut row[..extent[0]]);
@@ -87,7 +84,8 @@ impl<F: Fn([usize; 3], &mut [Vec4]) + Sync> Fill for F {
 impl<T: Texel> Texels<T> {
     /// Makes the gel of a grid of `size` voxels.
     ///
-    /// `holds(brick)` says whether a brick is stored (whether one of the 9³ voxels from its first on is interesting).
+    /// `holds(brick)` says whether a brick is stored: whether one of the 9³ voxels from its first on is interesting. What one
+    /// that is not has is clear for those around it too.
     pub fn make(
         size: [usize; 3],
         holds: impl Fn([usize; 3]) -> bool + Sync,
@@ -112,6 +110,7 @@ impl<T: Texel> Texels<T> {
         places.for_each(|(texels, &brick)| {
             dispatch!(level, simd => made_of.fill(simd, (size, brick), full, texels));
         });
+        apron::fill(counts, &table, &stored, texels.as_chunks_mut().0);
         let scale = Vec3::splat(T::SCALE * full).extend(T::SCALE);
         Self(Arc::new(Stored { counts, table, scale, texels }))
     }

@@ -38,12 +38,15 @@ pub(crate) struct Crossings {
     pub bare: [Vec4; LANES],
     /// The value where the slab that was met last ends, and the number of the slab that begins there.
     pub ends: [(i64, f32); LANES],
+    /// How far from samples what they show is looked for, cells.
+    pub reach: f64,
 }
 
 impl Crossings {
-    /// Forgets where slabs ended: other rays begin.
-    pub fn begin(&mut self) {
+    /// Forgets where slabs ended: other rays begin, which show what is as near to them as `reach`.
+    pub fn begin(&mut self, reach: f64) {
         self.ends = [(i64::MIN, 0.0); LANES];
+        self.reach = reach;
     }
 }
 

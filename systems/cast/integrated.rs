@@ -59,9 +59,9 @@ pub fn ends(
     for lane in each(lanes) {
         let stretch = Stretch::of(tile, lane, k);
         if known[lane].0 != k {
-            ask(stretch.at(0.0));
+            ask(stretch.ends()[0]);
         }
-        ask(stretch.at(1.0));
+        ask(stretch.ends()[1]);
     }
     field.values(level, &spots[..count], &mut found);
     let (mut made, mut answers) = ([[0.0; 2]; LANES], found.into_iter());

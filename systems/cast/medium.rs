@@ -203,7 +203,7 @@ impl<S: Source> Media for Medium<'_, S> {
         entered.window.forget();
         let reach = self.source.reach(&entered.tile);
         if reach > 0.0 {
-            entered.crossings.begin();
+            entered.crossings.begin(reach);
         }
         entered.bundle = Bundle::of(&entered.tile, self.pyramid, reach);
         self.walk.scatter(&packet.places, &mut entered.tile);

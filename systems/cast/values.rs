@@ -21,6 +21,9 @@ use crate::volume::gradients::normal;
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::PyramidSlices;
 
+/// So many samples or fewer are looked at in half of the time.
+const HALF: usize = LANES / 2;
+
 /// The scalars of one volume, and how they look.
 pub struct Values<'a> {
     field: Field<'a>,
@@ -36,6 +39,8 @@ pub struct Values<'a> {
     has_gel: bool,
     /// Whether slabs are integrated, from one end to the other.
     integrated: bool,
+    /// Whether what a sample shows is found around it.
+    looks_around: bool,
     cut: Option<Cut>,
     lamps: &'a Lamps,
     /// All of them, in the order in which they are summed.
@@ -58,6 +63,7 @@ impl<'a> Values<'a> {
             surfaces: classifier.surfaces(),
             has_gel: classifier.has_gel(),
             integrated: stated.integrate && classifier.integrates(),
+            looks_around: classifier.looks_around(stated.integrate),
             classifier,
             field: Field::new(scalars, grid, *filter),
             pyramid,
@@ -78,15 +84,10 @@ impl<'a> Values<'a> {
         [self.index_to_world.transform_point3(place), self.index_to_world.matrix3 * step]
     }
 
-    /// Whether what a sample shows is found around it.
-    fn looks_around(&self) -> bool {
-        self.integrated || !self.surfaces.is_empty()
-    }
-
-    /// Of rays that may meet something as far from a sample as is looked, those whose stretch does.
-    fn near(&self, tile: &Tile, k: i64, lanes: Lanes) -> Lanes {
-        let Some(pyramid) = self.pyramid.filter(|_| self.looks_around()) else { return lanes };
-        if PyramidSlices::reaching(crossing::reach(tile)).is_none() {
+    /// Of rays that may meet something as far from a sample as `reach`, those whose stretch does.
+    fn near(&self, tile: &Tile, (k, lanes): (i64, Lanes), reach: f64) -> Lanes {
+        let Some(pyramid) = self.pyramid.filter(|_| self.looks_around) else { return lanes };
+        if PyramidSlices::reaching(reach).is_none() {
             return lanes;
         }
         each(lanes)
@@ -108,18 +109,16 @@ impl<'a> Values<'a> {
         pyramid.shows_any([sorted(0), sorted(1), sorted(2)])
     }
 
-    /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; `middle` is the value at
-    /// its sample.
+    /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; the values are those at
+    /// its beginning, its sample and its end.
     fn cross(
         &self,
         level: Level,
         fade: f32,
-        (stretch, middle): (&Stretch, f32),
+        (stretch, [front, middle, back]): (&Stretch, [f32; 3]),
         (seen, ratio, met): (&mut Vec4, f64, &mut Vec<CrossedSurface>),
     ) -> Sheet {
-        let mut ends = [0.0; 2];
-        self.field.values(level, &stretch.ends().map(spot), &mut ends);
-        let values = [(0.0, ends[0]), (0.5, middle), (1.0, ends[1])];
+        let values = [(0.0, front), (0.5, middle), (1.0, back)];
         met.clear();
         for surface in &self.surfaces {
             for half in values.windows(2) {
@@ -154,13 +153,13 @@ impl Source for Values<'_> {
     }
 
     fn reach(&self, tile: &Tile) -> f64 {
-        if self.looks_around() { crossing::reach(tile) } else { 0.0 }
+        if self.looks_around { crossing::reach(tile) } else { 0.0 }
     }
 
     fn cells(&self, tile: &Tile) -> Option<Cells<'_>> {
         let pyramid = self.pyramid?;
         let counts = pyramid.bricks();
-        if self.looks_around() {
+        if self.looks_around {
             let reaching = PyramidSlices::reaching(crossing::reach(tile))?;
             let (table, words) = pyramid.near(reaching)?;
             return Some(Cells { counts, table, words: Some(words) });
@@ -177,7 +176,7 @@ impl Source for Values<'_> {
         (seen, ratios, crossings): (&mut [Vec4; LANES], &[f64; LANES], &mut Crossings),
     ) -> Lanes {
         let (level, fade) = (simd.level(), fade.unwrap_or(1.0));
-        let met = self.near(tile, k, lanes);
+        let met = self.near(tile, (k, lanes), crossings.reach);
         let mut sampled = [Sampled::default(); LANES];
         let mut spots = [Spot::default(); LANES];
         let middles = each(met).map(|lane| spot(tile.at_sample(lane, k)));
@@ -189,16 +188,20 @@ impl Source for Values<'_> {
             self.field.values(level, &spots[..found], &mut values);
             sampled.iter_mut().zip(values).for_each(|(sampled, value)| sampled.value = value);
         }
+        let mut slabs = [[0.0; 2]; LANES];
+        if self.looks_around {
+            slabs = integrated::ends((&self.field, level), tile, (k, met), &mut crossings.ends);
+        }
         if !self.has_gel {
             each(met).for_each(|lane| seen[lane] = Vec4::ZERO);
         } else if self.is_plain() {
-            simd.vectorize(|| self.look_at_all(&sampled, (met, fade), seen));
+            match sampled.first_chunk::<HALF>() {
+                Some(half) if found <= HALF => {
+                    simd.vectorize(|| self.look_at_all(half, (met, fade), seen));
+                }
+                _ => simd.vectorize(|| self.look_at_all(&sampled, (met, fade), seen)),
+            }
         } else {
-            let slabs = if self.integrated {
-                integrated::ends((&self.field, level), tile, (k, met), &mut crossings.ends)
-            } else {
-                [[0.0; 2]; LANES]
-            };
             for (lane, sampled) in each(met).zip(&sampled) {
                 let slab = Ends { values: slabs[lane], ratio: ratios[lane] };
                 let slab = self.integrated.then_some(slab);
@@ -210,7 +213,8 @@ impl Source for Values<'_> {
                 let stretch = Stretch::of(tile, lane, k);
                 crossings.bare[lane] = seen[lane];
                 let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
-                crossings.sheets[lane] = self.cross(level, fade, (&stretch, sampled.value), slab);
+                let values = [slabs[lane][0], sampled.value, slabs[lane][1]];
+                crossings.sheets[lane] = self.cross(level, fade, (&stretch, values), slab);
             }
         }
         met

@@ -1,7 +1,6 @@
 //! A layer of opacities and colours under its lights: `c_T = Σ c_i β_i` (equation 4), made into gel.
 
 use fearless_simd::Simd;
-use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::components::TexelKind;
@@ -67,60 +66,6 @@ impl LitLayer<'_> {
         };
         bricks.par_iter().map(most).reduce(|| 0.0, f32::max)
     }
-
-    /// Fills the texels from the first on that are of some brick's voxels: of `extent` of its first ones, of which that along x
-    /// is a row or one voxel. Colors are multiplied by `per_full`.
-    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
-    #[inline(always)]
-    fn fill_from<S: Simd, T: Texel>(
-        &self,
-        simd: S,
-        (brick, extent): ([usize; 3], [usize; 3]),
-        per_full: f32,
-        texels: &mut [T],
-    ) {
-        let Some(opacity) = self.opacity.brick(brick) else { return };
-        let base = self.base.brick(brick);
-        for (z, y) in (0..extent[2]).flat_map(|z| (0..extent[1]).map(move |y| (z, y))) {
-            let within = (z * EDGE + y) * EDGE;
-            let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
-            let Some(made) = made.first_chunk_mut::<EDGE>() else {
-                // Of a row in another brick nothing but its first voxel is brought near.
-                let alpha = opacity[within];
-                if alpha > 0.0 {
-                    let base = base.map_or([0.0; 3], |base| base[within]);
-                    let color = self.color(base, brick, within) * alpha * per_full;
-                    made[0] = T::store(color.extend(alpha));
-                }
-                continue;
-            };
-            let opacity = row_of(opacity, within);
-            if opacity.iter().all(|alpha| *alpha <= 0.0) {
-                continue;
-            }
-            let mut colors = base.map_or([[0.0; 3]; EDGE], |base| *row_of(base, within));
-            if !self.shadowed.is_empty() {
-                let lit = |x: usize| self.color(colors[x], brick, within + x).to_array();
-                colors = std::array::from_fn(lit);
-            }
-            let mut channels = [[0.0; EDGE], [0.0; EDGE], [0.0; EDGE], *opacity];
-            for x in 0..EDGE {
-                for channel in 0..3 {
-                    channels[channel][x] = colors[x][channel] * opacity[x] * per_full;
-                }
-            }
-            *made = T::store_row(simd, &channels);
-        }
-    }
-
-    /// `c_T` of a voxel of a brick, of which `base` is what no shadow weakens.
-    fn color(&self, base: [f32; 3], brick: [usize; 3], within: usize) -> Vec3 {
-        let lights = self.shadowed.iter().filter_map(|(light, strength)| {
-            let light = light.brick(brick)?[within];
-            Some(Vec3::from(light) * beta(*strength, brick, within))
-        });
-        lights.fold(Vec3::from(base), |color, light| color + light)
-    }
 }
 
 impl Fill for LitLayer<'_> {
@@ -133,28 +78,37 @@ impl Fill for LitLayer<'_> {
         full: f32,
         texels: &mut [T; TEXELS],
     ) {
-        // Its own voxels, then the first plane, line or voxel of each brick after it; what a brick has outside the grid is clear.
-        let counts = self.opacity.counts();
-        for corner in 0..8_usize {
-            let after: [usize; 3] = std::array::from_fn(|axis| corner >> axis & 1);
-            let from: [usize; 3] = std::array::from_fn(|axis| brick[axis] + after[axis]);
-            if (0..3).all(|axis| from[axis] < counts[axis]) {
-                let extent = after.map(|after| if after == 1 { 1 } else { EDGE });
-                let [x, y, z] = after.map(|after| after * EDGE);
-                self.fill_from(simd, (from, extent), 1.0 / full, &mut texels[(z * ROW + y) * ROW + x..]);
+        let Some(opacity) = self.opacity.brick(brick) else { return };
+        let (base, per_full) = (self.base.brick(brick), 1.0 / full);
+        for (row, opacity) in opacity.as_chunks::<EDGE>().0.iter().enumerate() {
+            if opacity.iter().all(|alpha| *alpha <= 0.0) {
+                continue;
             }
+            let within = row * EDGE;
+            let mut colors = base.map_or([[0.0; 3]; EDGE], |base| base.as_chunks().0[row]);
+            for (light, strength) in &self.shadowed {
+                let Some(light) = light.brick(brick) else { continue };
+                let betas = betas(*strength, brick, within);
+                for x in 0..EDGE {
+                    for channel in 0..3 {
+                        colors[x][channel] += light[within + x][channel] * betas[x];
+                    }
+                }
+            }
+            let mut channels = [[0.0; EDGE], [0.0; EDGE], [0.0; EDGE], *opacity];
+            for x in 0..EDGE {
+                for channel in 0..3 {
+                    channels[channel][x] = colors[x][channel] * opacity[x] * per_full;
+                }
+            }
+            let made = &mut texels[(row / EDGE * ROW + row % EDGE) * ROW..][..EDGE];
+            made.copy_from_slice(&T::store_row(simd, &channels));
         }
     }
 
     fn brightest(&self) -> f32 {
         self.brightest.max(1.0)
     }
-}
-
-/// The row of a brick's voxels that begins with the one at `within`.
-#[inline]
-fn row_of<T>(brick: &[T; VOXELS], within: usize) -> &[T; EDGE] {
-    &brick.as_chunks().0[within / EDGE]
 }
 
 /// The greatest channel of a brick's colours, at least 0.
@@ -167,18 +121,18 @@ fn brightest(colors: &[[f32; 3]; VOXELS]) -> f32 {
     most.into_iter().fold(0.0, f32::max)
 }
 
-/// β of a voxel of `brick`: 1 without a buffer, 0 where the buffer stores nothing.
-fn beta(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> f32 {
-    let Some(strength) = strength else { return 1.0 };
-    let Some(stored) = strength.voxels.brick(brick) else { return 0.0 };
-    let place = [within % EDGE, within / EDGE % EDGE, within / (EDGE * EDGE)];
-    let voxel = std::array::from_fn(|axis| brick[axis] * EDGE + place[axis]);
-    strength.beta(stored[within], voxel)
+/// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
+fn betas(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
+    let Some(strength) = strength else { return [1.0; EDGE] };
+    let Some(stored) = strength.voxels.brick(brick) else { return [0.0; EDGE] };
+    let [x, y, z] = brick.map(|brick| brick * EDGE);
+    let [y, z] = [y + within / EDGE % EDGE, z + within / (EDGE * EDGE)];
+    std::array::from_fn(|at| strength.beta(stored[within + at], [x + at, y, z]))
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec4;
+    use glam::{Vec3, Vec4};
 
     use super::*;
     use crate::volume::gel::{CELLS, EMPTY};

@@ -7,7 +7,7 @@ use super::super::integrated::Ends;
 use super::super::lanes::{LANES, Lanes, each};
 use super::Values;
 use crate::light::shading::Lamp;
-use crate::light::side_by_side::{self, Lighting};
+use crate::light::side_by_side::{self, Lighting, Vectors};
 use crate::view::composite::{recolor, thicken};
 use crate::volume::clipping::Section;
 use crate::volume::field::Sampled;
@@ -22,26 +22,26 @@ impl Values<'_> {
         !self.integrated && self.cut.is_none() && self.strengths.iter().all(Option::is_none)
     }
 
-    /// [`look`](Self::look) for samples of the rays `met`, in their order, that are [plain](Self::is_plain): side by side, to the
-    /// last bit the same.
+    /// [`look`](Self::look) for samples of the rays `met`, `N` at the most, in their order, that are [plain](Self::is_plain): side
+    /// by side, to the last bit the same.
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    pub(super) fn look_at_all(
+    pub(super) fn look_at_all<const N: usize>(
         &self,
-        sampled: &[Sampled; LANES],
+        sampled: &[Sampled; N],
         (met, fade): (Lanes, f32),
         seen: &mut [Vec4; LANES],
     ) {
-        let mut values = [0.0; LANES];
-        let mut gradients = [[0.0; LANES]; 3];
+        let mut values = [0.0; N];
+        let mut gradients = [[0.0; N]; 3];
         for (at, sampled) in sampled.iter().enumerate() {
             values[at] = sampled.value;
             side_by_side::set(&mut gradients, at, Vec3::from(sampled.gradient));
         }
         let alphas = self.classifier.opacities(&values, &gradients);
-        let mut colors = side_by_side::all(self.classifier.only_color().unwrap_or_default());
+        let mut colors: Vectors<N> = side_by_side::all(self.classifier.only_color().unwrap_or_default());
         if self.classifier.only_color().is_none() {
-            for at in (0..LANES).filter(|&at| alphas[at] > 0.0) {
+            for at in (0..N).filter(|&at| alphas[at] > 0.0) {
                 let gradient = side_by_side::one(&gradients, at).to_array();
                 side_by_side::set(&mut colors, at, self.classifier.color(values[at], gradient));
             }
