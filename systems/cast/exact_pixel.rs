@@ -1,6 +1,6 @@
 //! A pixel as it would be with a ray at every position that it is made of.
 
-use super::lanes::{LANES, Lanes, Packet, SIDE, each};
+use super::lanes::{LANES, Lanes, Packet, TilePlaces, each};
 use super::targets::{Caster, RayColors};
 use crate::components::{Color, PixelFilter};
 use crate::view::picture::Picture;
@@ -23,24 +23,29 @@ pub fn exact_pixel<C: Caster>(
     let mut array = all_open(layout);
     let (first, side) = (layout.margin - reach, 2 * reach + 1);
     let mut rays = [RayColors::default(); LANES];
-    for j in (0..side).step_by(SIDE) {
-        for i in (0..side).step_by(SIDE) {
-            let held = |lane: &usize| i + lane % SIDE < side && j + lane / SIDE < side;
-            let wanted = (0..LANES).filter(held).fold(0, |set, lane| set | (1 as Lanes) << lane);
-            let place = |pixel: usize, at: usize| (pixel * POSITIONS + at) as i64 - reach as i64;
-            let packet = Packet::new([place(x, i), place(y, j)], 1, wanted);
-            let met = caster.cast(&packet, &mut rays, scratch, counts);
-            for lane in each(if met { wanted } else { 0 }) {
-                let at = [first + i + lane % SIDE, first + j + lane / SIDE];
-                let (within, block) = layout.place(at[0], at[1]);
-                if within == 0 {
-                    array.colors.lattice[block] = rays[lane].full;
-                } else {
-                    array.colors.fine[block][within] = rays[lane].full;
-                }
+    let all = side * side;
+    // Row after row, sixteen at a time: tiles of four by four would be full of rays that nobody wants.
+    for begin in (0..all).step_by(LANES) {
+        let (top, end) = (begin / side, all.min(begin + LANES));
+        let at = |lane: usize| {
+            let place = (begin + lane).min(end - 1);
+            [place % side, place / side]
+        };
+        let place = |pixel: usize, at: usize| (pixel * POSITIONS + at) as i64 - reach as i64;
+        let off = std::array::from_fn(|lane| [at(lane)[0] as u16, (at(lane)[1] - top) as u16]);
+        let places = TilePlaces::scattered([place(x, 0), place(y, top)], off);
+        let wanted = Lanes::MAX >> (LANES - (end - begin));
+        let met = caster.cast(&Packet { places, step: 1, wanted }, &mut rays, scratch, counts);
+        for lane in each(if met { wanted } else { 0 }) {
+            let [i, j] = at(lane).map(|n| first + n);
+            let (within, block) = layout.place(i, j);
+            if within == 0 {
+                array.colors.lattice[block] = rays[lane].full;
+            } else {
+                array.colors.fine[block][within] = rays[lane].full;
             }
-            counts.rays += u64::from(wanted.count_ones());
         }
+        counts.rays += u64::from(wanted.count_ones());
     }
     resample(&array, filter, background)
 }
