@@ -8,6 +8,15 @@ use crate::errors::Grey;
 
 const VOLPACK: &str = include_str!("volpack.c");
 const CASTER: &str = include_str!("caster.py");
+/// Ends well where the package is there, and a window that needs no display too.
+const WINDOW: &str = r#"
+import os
+os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
+import numpy, vtk
+window = vtk.vtkRenderWindow()
+window.SetOffScreenRendering(1)
+window.Render()
+"#;
 
 /// A running program that answers with pictures.
 pub struct Program {
@@ -102,9 +111,9 @@ impl Told<'_> {
 
     /// VTK's fixed-point caster, with so many pixels between rays; the error says how it is installed.
     pub fn vtk(&self, kind: &str, between: f64) -> Result<Program, String> {
-        let there = Command::new("python3").args(["-c", "import vtk, numpy"]).output();
+        let there = Command::new("python3").args(["-c", WINDOW]).output();
         if !there.is_ok_and(|output| output.status.success()) {
-            return Err("`python3 -c \"import vtk\"` fails; `pip install vtk numpy`, and Debian's libosmesa6 where there is no display".to_owned());
+            return Err("VTK shows no window; `pip install vtk numpy`, and Debian's libosmesa6 where there is no display".to_owned());
         }
         let mut run = Command::new("python3");
         run.current_dir(self.folder).args(["-c", CASTER, kind]);
