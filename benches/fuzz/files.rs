@@ -1,24 +1,23 @@
 //! Files of volumes and of pictures, a few bytes beside sound ones.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gelray::formats::pictures::{Notes, write_picture};
 use gelray::formats::{Stated, Voxels, read_picture, read_volume, survey};
 use gelray::view::picture::Picture;
 
-use super::made::{gzip, map, nifti};
+use super::made::{gzip, map, nifti, put, zarr};
 use super::random::Random;
 
 /// A volume of some format, read; whether it was taken, or what does not hold together.
 pub fn volume(random: &mut Random, folder: &Path) -> Result<bool, String> {
-    let (name, bytes) = sound(random);
-    let path = folder.join(name);
-    std::fs::write(&path, random.mutated(bytes)).map_err(|error| error.to_string())?;
+    let (path, name) = written(random, folder).map_err(|error| error.to_string())?;
     let stated = Stated {
         size: (random.below(2) == 0).then(|| [random.below(5), random.below(5), 2]),
         voxel_type: (random.below(2) == 0).then(|| "int16".to_owned()),
         endian: (random.below(2) == 0).then(|| "big".to_owned()),
         spacing_mm: (random.below(4) == 0).then(|| [1.0, f64::from_bits(random.bits()), -2.0]),
+        ..Stated::default()
     };
     let surveyed = survey(&path, &stated);
     let Ok(loaded) = read_volume(&path, &stated) else { return Ok(false) };
@@ -30,6 +29,23 @@ pub fn volume(random: &mut Random, folder: &Path) -> Result<bool, String> {
         return Err(format!("{name} was taken with {count} voxels of {:?}", loaded.grid));
     }
     surveyed.map(|_| true).map_err(|error| format!("{name} was read and not surveyed: {error}"))
+}
+
+/// A file or a folder of some format, damaged, and its name.
+fn written(random: &mut Random, folder: &Path) -> std::io::Result<(PathBuf, &'static str)> {
+    if random.below(4) > 0 {
+        let (name, bytes) = sound(random);
+        let path = folder.join(name);
+        std::fs::write(&path, random.mutated(bytes))?;
+        return Ok((path, name));
+    }
+    let mut arrays = zarr();
+    let (name, mut files) = arrays.swap_remove(random.below(arrays.len()));
+    let damaged = random.below(2);
+    files[damaged].1 = random.mutated(std::mem::take(&mut files[damaged].1));
+    let path = folder.join(name);
+    put(&path, &files)?;
+    Ok((path, name))
 }
 
 /// A picture of some format, read.

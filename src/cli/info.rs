@@ -75,7 +75,9 @@ fn read(path: &Path, flags: &Flags) -> Result<Loaded, Failure> {
 
 /// The volume of a file, if it is not more than memory may hold.
 pub fn within(path: &Path, stated: &Stated, flags: &Flags) -> Result<Loaded, Failure> {
-    memory::check(survey(path, stated)?.bytes, flags.max_memory)?;
+    let found = survey(path, stated)?;
+    memory::check(found.bytes, flags.max_memory)?;
+    outputs::spare(flags, &found.files)?;
     Ok(read_volume(path, stated)?)
 }
 

@@ -29,6 +29,12 @@ pub struct Volume {
     /// about the volume's centre. Like the keys of a headerless file it describes `file`, never the `stand_in`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing_mm: Option<[f64; 3]>,
+    /// For a file of several channels (Zarr): which is read, 0 the first; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channel: Option<usize>,
+    /// For a file of several times (Zarr): which is read, 0 the first; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<usize>,
     /// The world point that the middle of the volume is moved to, of the file and of the stand-in alike; default: where the file puts it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center: Option<[f64; 3]>,

@@ -69,3 +69,66 @@ pub(super) fn base64(bytes: &[u8]) -> String {
     }
     text
 }
+
+/// Numbers of 16 bits of a chunk of an array of 2 × 3 × 4 that counts on, in which the chunk begins at `at`; its axes are
+/// written in the `order`, the slowest first. Over the end are ones.
+fn counted(at: [usize; 3], chunk: [usize; 3], order: [usize; 3], big: bool) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for number in 0..chunk.iter().product() {
+        let (mut rest, mut place) = (number, at);
+        for axis in order.into_iter().rev() {
+            place[axis] += rest % chunk[axis];
+            rest /= chunk[axis];
+        }
+        let [z, y, x] = place;
+        let value = if z < 2 && y < 3 && x < 4 { (z * 12 + y * 4 + x) as i16 } else { -1 };
+        bytes.extend(if big { value.to_be_bytes() } else { value.to_le_bytes() });
+    }
+    bytes
+}
+
+/// Files by their names in a folder.
+pub(super) type Files = Vec<(&'static str, Vec<u8>)>;
+
+/// Arrays of Zarr of 2 × 3 × 4 numbers of 16 bits that count on from 0: for each a name, and the files in its folder.
+pub(super) fn zarr() -> Vec<(&'static str, Files)> {
+    const PLACES: [[usize; 3]; 4] = [[0, 0, 0], [0, 0, 3], [0, 2, 0], [0, 2, 3]];
+    let chunks = |names: [&'static str; 4], order, big, pack: fn(Vec<u8>) -> Vec<u8>| {
+        let chunk = |at| pack(counted(at, [2, 2, 3], order, big));
+        names.into_iter().zip(PLACES.map(chunk)).collect::<Vec<_>>()
+    };
+    let plain = r#"{"zarr_format":2,"shape":[2,3,4],"chunks":[2,2,3],"dtype":"<i2","order":"C","fill_value":-7,"compressor":null,"filters":null}"#;
+    let turned = r#"{"zarr_format":2,"shape":[2,3,4],"chunks":[2,2,3],"dtype":">i2","order":"F","fill_value":-7,"compressor":{"id":"zlib","level":1},"filters":[],"dimension_separator":"/"}"#;
+    let third = r#"{"zarr_format":3,"node_type":"array","shape":[2,3,4],"data_type":"int16","chunk_grid":{"name":"regular","configuration":{"chunk_shape":[2,2,3]}},"chunk_key_encoding":{"name":"default"},"fill_value":-7,"codecs":[{"name":"transpose","configuration":{"order":[1,0,2]}},{"name":"bytes","configuration":{"endian":"little"}},{"name":"gzip"}],"attributes":{}}"#;
+    let shards = r#"{"zarr_format":3,"node_type":"array","shape":[2,3,4],"data_type":"int16","chunk_grid":{"name":"regular","configuration":{"chunk_shape":[2,4,4]}},"chunk_key_encoding":{"name":"v2"},"fill_value":-7,"codecs":[{"name":"sharding_indexed","configuration":{"chunk_shape":[2,2,2],"codecs":[{"name":"bytes","configuration":{"endian":"big"}}],"index_codecs":[{"name":"bytes","configuration":{"endian":"little"}}],"index_location":"end"}}],"dimension_names":["z","y","x"]}"#;
+    let inner = [[0, 0, 0], [0, 0, 2], [0, 2, 0], [0, 2, 2]];
+    let inner = inner.map(|at| counted(at, [2, 2, 2], [0, 1, 2], true));
+    let table = (0..4_u64).flat_map(|row| [row * 16, 16]).flat_map(u64::to_le_bytes);
+    let shard = [inner.concat(), table.collect()].concat();
+    let metadata = |name: &'static str, text: &str| vec![(name, text.as_bytes().to_vec())];
+    let flat = ["0.0.0", "0.0.1", "0.1.0", "0.1.1"];
+    let nested = ["0/0/0", "0/0/1", "0/1/0", "0/1/1"];
+    let under = ["c/0/0/0", "c/0/0/1", "c/0/1/0", "c/0/1/1"];
+    let with = |metadata: Vec<_>, chunks: Vec<_>| [metadata, chunks].concat();
+    vec![
+        ("plain", with(metadata(".zarray", plain), chunks(flat, [0, 1, 2], false, |b| b))),
+        (
+            "turned",
+            with(metadata(".zarray", turned), chunks(nested, [2, 1, 0], true, |b| zlib(&b))),
+        ),
+        (
+            "third",
+            with(metadata("zarr.json", third), chunks(under, [1, 0, 2], false, |b| gzip(&b))),
+        ),
+        ("shards", with(metadata("zarr.json", shards), vec![("0.0.0", shard)])),
+    ]
+}
+
+/// Puts files of these names into a folder, and makes the folders that the names need.
+pub(super) fn put(folder: &std::path::Path, files: &[(&str, Vec<u8>)]) -> std::io::Result<()> {
+    files.iter().try_for_each(|(name, bytes)| {
+        let path = folder.join(name);
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        std::fs::write(path, bytes)
+    })
+}

@@ -9,6 +9,7 @@ mod stated;
 mod stream;
 mod survey;
 mod vtk_file;
+mod zarr;
 
 #[cfg(test)]
 mod hostile_files;
@@ -24,7 +25,7 @@ mod real_files;
 pub mod whole;
 
 use std::iter;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use loaded::{Loaded, Voxels};
 pub use stated::Stated;
@@ -85,8 +86,43 @@ formats! {
     raw "raw" ["raw", "raw.gz"] None;
 }
 
+/// A format of folders that hold a volume in files: a row of [`FOLDERS`].
+struct FolderFormat {
+    /// What people call it.
+    name: &'static str,
+    /// Whether a folder is of this format.
+    recognizes: fn(&Path) -> bool,
+    /// Reads what the folder holds; errors as those of [`Format::read`].
+    read: fn(&Path, &Stated) -> Result<Loaded, String>,
+    /// What the files in it promise, before a voxel is read.
+    promised: fn(&Path, &Stated) -> Result<Promise, String>,
+}
+
+/// The formats of folders, the first that recognizes one reads it; the last takes what no other does.
+static FOLDERS: [FolderFormat; 2] = [
+    FolderFormat {
+        name: "Zarr",
+        recognizes: zarr::recognizes,
+        read: zarr::read_folder,
+        promised: zarr::promised_of_folder,
+    },
+    FolderFormat {
+        name: "DICOM",
+        recognizes: |_| true,
+        read: dicom::read_folder,
+        promised: dicom::promised_of_folder,
+    },
+];
+
+/// The folder that a path stands for, itself or by a file of metadata in it, and its format.
+fn of_folder(path: &Path) -> Option<(PathBuf, &'static FolderFormat)> {
+    let folder = if path.is_dir() { path.to_owned() } else { zarr::folder_of(path)? };
+    let format = FOLDERS.iter().find(|format| (format.recognizes)(&folder))?;
+    Some((folder, format))
+}
+
 /// Reads a volume of any format in `FORMATS`: by what it starts with, else by how its name ends; of a folder, the
-/// series of slices in it.
+/// array of Zarr or the series of slices in it.
 ///
 /// A name that ends as a headerless file is believed, whatever its voxels look like. `stated` is what the scene says of
 /// the file: needed by headerless files, and its spacing replaces that of any file. Fails where the file is missing,
@@ -94,8 +130,10 @@ formats! {
 pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
     let wrong = |problem| Error::format(path, problem);
     stated.check().map_err(wrong)?;
-    if path.is_dir() {
-        return dicom::read_folder(path, stated).map_err(wrong);
+    if let Some((folder, format)) = of_folder(path) {
+        let mut loaded = (format.read)(&folder, stated).map_err(wrong)?;
+        loaded.warnings.extend(stated.unused());
+        return Ok(loaded);
     }
     let stream = Stream::open(path).map_err(|problem| Error::file(path, problem))?;
     read_stream(stream, path, stated).map_err(wrong)
@@ -105,9 +143,9 @@ pub fn read_volume(path: &Path, stated: &Stated) -> Result<Loaded, Error> {
 pub fn survey(path: &Path, stated: &Stated) -> Result<Survey, Error> {
     let wrong = |problem| Error::format(path, problem);
     stated.check().map_err(wrong)?;
-    if path.is_dir() {
-        let (bytes, files) = dicom::promised_of_folder(path).map_err(wrong)?;
-        return Ok(Survey { format: "DICOM", files, bytes });
+    if let Some((folder, format)) = of_folder(path) {
+        let (bytes, files) = (format.promised)(&folder, stated).map_err(wrong)?;
+        return Ok(Survey { format: format.name, files, bytes });
     }
     let stream = Stream::open(path).map_err(|problem| Error::file(path, problem))?;
     let (mut stream, format) = recognized(stream, path).map_err(wrong)?;
@@ -121,7 +159,7 @@ pub fn write_volume(path: &Path, loaded: &Loaded) -> Result<(), Error> {
     whole::write_whole(path, |sink| nrrd::write(sink, loaded))
 }
 
-/// Whether a file is a volume of a known format: by what it starts with, or by the name of a headerless one.
+/// Whether a file is a volume of a known format: by what it starts with, or by the name of a headerless one or of metadata of Zarr.
 ///
 /// A TIFF or an array that is a picture is none.
 #[must_use]
@@ -130,7 +168,9 @@ pub fn is_volume(path: &Path) -> bool {
     let recognized = |head: Vec<u8>| {
         by_head(&head).is_some() && (!tiff_stack::recognizes(&head) || tiff_stack::is_stack(path))
     };
-    (is_headerless(path) && path.is_file()) || head().is_some_and(recognized)
+    (is_headerless(path) && path.is_file())
+        || zarr::folder_of(path).is_some()
+        || head().is_some_and(recognized)
 }
 
 /// Whether a file's name is that of a format without a header, which the scene has to state.
@@ -145,6 +185,7 @@ fn read_stream(stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, S
     if format.recognizes.is_some() {
         loaded.warnings.extend(stated.unused());
     }
+    loaded.warnings.extend(stated.unused_choices());
     Ok(loaded)
 }
 
@@ -176,7 +217,7 @@ fn unknown() -> String {
         .map(|format| format!("{} (.{})", format.name, format.extensions.join(", .")))
         .collect();
     format!(
-        "neither its first bytes nor its name are of a known format; expected one of {}; convert it, or name a headerless file .raw and state `size` and `voxel_type`",
+        "neither its first bytes nor its name are of a known format; expected one of {}; name the folder of a series of DICOM or of a Zarr array, convert it, or name a headerless file .raw and state `size` and `voxel_type`",
         known.join(", ")
     )
 }

@@ -15,10 +15,11 @@ use crate::volume::grid::Scalars;
 /// What a file starts with.
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// What the numbers are.
+/// What the numbers of an array are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Element {
+pub(super) enum Element {
     Number(NumberType),
+    /// Floats of 16 bits.
     Half,
 }
 
@@ -119,7 +120,7 @@ impl Header {
 }
 
 /// The number type and byte order of a `descr` such as `<i2`.
-fn element(descr: &str) -> Result<(Element, Order), String> {
+pub(super) fn element(descr: &str) -> Result<(Element, Order), String> {
     let order = if descr.starts_with('>') { Order::Big } else { Order::Little };
     let kind = match descr.trim_start_matches(['<', '>', '|', '=']) {
         "u1" | "b1" => NumberType::U8,

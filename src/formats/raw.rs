@@ -55,6 +55,7 @@ mod tests {
             voxel_type: Some("uint16".to_owned()),
             endian: Some("big".to_owned()),
             spacing_mm: Some([1.0, 1.0, 2.0]),
+            ..Stated::default()
         }
     }
 

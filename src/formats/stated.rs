@@ -15,6 +15,10 @@ pub struct Stated {
     pub endian: Option<String>,
     /// Spacing in world units that replaces the file's; negative flips the axis about the volume's centre.
     pub spacing_mm: Option<[f64; 3]>,
+    /// Which channel is read of a file of several, 0 the first.
+    pub channel: Option<usize>,
+    /// Which time is read of a file of several, 0 the first.
+    pub time: Option<usize>,
 }
 
 impl Stated {
@@ -42,6 +46,16 @@ impl Stated {
             ));
         }
         Grid::new(size, placed)
+    }
+
+    /// A warning for each key that only a file of several volumes has a use for.
+    pub(super) fn unused_choices(&self) -> impl Iterator<Item = String> {
+        [("channel", self.channel.is_some()), ("time", self.time.is_some())]
+            .into_iter()
+            .filter(|(_, stated)| *stated)
+            .map(|(key, _)| {
+                format!("the file's format has one volume a file: the stated `{key}` is not used")
+            })
     }
 
     /// A warning for each key that only a headerless file has a use for.

@@ -252,6 +252,14 @@ impl Stream {
     }
 }
 
+/// So many bytes of 0.
+pub(super) fn zeros(count: usize) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    room(&mut bytes, count)?;
+    bytes.resize(count, 0);
+    Ok(bytes)
+}
+
 /// Makes room in an array for `more` values; the error is that the machine has no memory for them.
 pub(super) fn room<T>(values: &mut Vec<T>, more: usize) -> Result<(), String> {
     values.try_reserve_exact(more).map_err(|_| {

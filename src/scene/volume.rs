@@ -92,6 +92,8 @@ fn voxels(loading: &mut Loading, entry: usize, volume: &Volume) -> Result<(Loade
         endian: volume.endian.clone(),
         // The sign is a flip about the middle, which is done to any format alike once it is read.
         spacing_mm: volume.spacing_mm.map(|spacing| spacing.map(f64::abs)),
+        channel: volume.channel,
+        time: volume.time,
     };
     if let Some(read) = read_one(loading, entry, "file", &volume.file, &stated)? {
         return Ok((read, false));

@@ -1,7 +1,8 @@
 """Files that other programs write are read to the same voxels at the same places.
 
 Run as `python3 tests/formats/check.py PROGRAM`; PROGRAM is a built gelray. Each check needs a Python package and is left
-out, with a line that says so, where it is missing: numpy (for all), pydicom, SimpleITK, nibabel, tifffile, vtk, trimesh.
+out, with a line that says so, where it is missing: numpy (for all), pydicom, SimpleITK, nibabel, tifffile, vtk,
+trimesh, zarr, ome_zarr.
 Exit code 1 where anything differs.
 """
 
@@ -157,6 +158,104 @@ def images_of_vtk(folder):
                 writer.SetEncodeAppendedData(packed)
                 writer.Write()
                 same(folder / "a.vti", volume(kind), placed(), folder)
+
+
+def small(kind):
+    """Voxels that all number types hold, of more than one chunk on each axis."""
+    z, y, x = np.mgrid[0:13, 0:20, 0:37]
+    return ((z * 740 + y * 37 + x) % 113).astype(kind)
+
+
+@check("zarr", "numcodecs")
+def arrays_of_zarr_2(folder):
+    import numcodecs
+    import zarr
+
+    ways = [None, numcodecs.Zlib(), numcodecs.GZip(), numcodecs.Zstd(), numcodecs.LZ4()]
+    for name in numcodecs.blosc.list_compressors():
+        for shuffle in [numcodecs.Blosc.NOSHUFFLE, numcodecs.Blosc.SHUFFLE, numcodecs.Blosc.BITSHUFFLE]:
+            ways.append(numcodecs.Blosc(cname=name, clevel=5, shuffle=shuffle, blocksize=1024 if shuffle == 1 else 0))
+    kinds = ["|u1", "|i1", "<u2", ">i2", "<u4", ">i4", "<f4", ">f8"]
+    for number, way in enumerate(ways):
+        for kind in kinds:
+            path = folder / f"a{number}{kind[1:]}.zarr"
+            array = zarr.create_array(
+                path, shape=small(kind).shape, chunks=(8, 16, 16), dtype=kind, compressors=way, zarr_format=2,
+                order="CF"[number % 2], fill_value=7, chunk_key_encoding={"name": "v2", "separator": "./"[number % 2]},
+            )
+            array[:] = small(kind)
+            same(path, small(kind), np.eye(4), folder)
+    voxels = small("<f2")
+    zarr.create_array(folder / "half.zarr", shape=voxels.shape, chunks=voxels.shape, dtype="<f2", zarr_format=2)[:] = voxels
+    same(folder / "half.zarr", voxels.astype("f4"), np.eye(4), folder)
+
+
+@check("zarr")
+def arrays_of_zarr_3(folder):
+    import zarr
+    from zarr.codecs import BloscCodec, BytesCodec, Crc32cCodec, GzipCodec, ShardingCodec, TransposeCodec, ZstdCodec
+
+    turned, big = TransposeCodec(order=(2, 0, 1)), BytesCodec(endian="big")
+    chains = [
+        dict(compressors=None), dict(compressors=ZstdCodec(level=3, checksum=True)), dict(compressors=GzipCodec()),
+        dict(compressors=[ZstdCodec(), Crc32cCodec()], filters=[turned], serializer=big),
+        dict(compressors=BloscCodec(cname="lz4", shuffle="bitshuffle")), dict(shards=(16, 32, 32)),
+        dict(shards=(8, 16, 48), compressors=BloscCodec(cname="zstd"), filters=[turned], serializer=big),
+        dict(chunks=(16, 32, 32), compressors=None, serializer=ShardingCodec(
+            chunk_shape=(8, 16, 16), codecs=[BytesCodec(), GzipCodec()], index_codecs=[BytesCodec()], index_location="start")),
+    ]
+    for number, chain in enumerate(chains):
+        for kind in ["uint8", "int16", "uint32", "float32", "float64", "float16"]:
+            for separator in "/.":
+                path = folder / f"{number}{kind}{separator == '/'}.zarr"
+                array = zarr.create_array(
+                    path, **{"chunks": (8, 16, 16), **chain}, shape=small(kind).shape, dtype=kind, zarr_format=3,
+                    fill_value=3, chunk_key_encoding={"name": "default", "separator": separator},
+                )
+                # The rest is the fill value, of which nothing is written.
+                array[:, :16, 16:] = small(kind)[:, :16, 16:]
+                expected = np.full_like(small(kind), 3)
+                expected[:, :16, 16:] = small(kind)[:, :16, 16:]
+                same(path, expected.astype("float32") if kind == "float16" else expected, np.eye(4), folder)
+
+
+@check("zarr")
+def images_of_ome_zarr(folder):
+    import zarr
+
+    levels = np.stack([small("uint16"), small("uint16") + 1])[None]
+    axes = [{"name": "t", "type": "time"}, {"name": "c", "type": "channel"}]
+    axes += [{"name": name, "type": "space", "unit": "micrometer"} for name in "zyx"]
+    (x, y, z), (ox, oy, oz) = SPACING, ORIGIN
+    steps = [{"type": "scale", "scale": [1, 1, 1000 * z, 1000 * y, 1000 * x]},
+             {"type": "translation", "translation": [0, 0, 1000 * oz, 1000 * oy, 1000 * ox]}]
+    coarse = [{"type": "scale", "scale": [1, 1, 2000 * z, 2000 * y, 2000 * x]}]
+    image = {"axes": axes, "datasets": [{"path": "0", "coordinateTransformations": steps}, {"path": "1", "coordinateTransformations": coarse}]}
+    affine = np.diag([*SPACING, 1.0])
+    affine[:3, 3] = ORIGIN
+    for version in [2, 3]:
+        path = folder / f"image{version}.zarr"
+        stated = {"multiscales": [{"version": "0.4", **image}]}
+        group = zarr.create_group(path, zarr_format=version, attributes=stated if version == 2 else {"ome": {"version": "0.5", "multiscales": [image]}})
+        for name, step in [("0", 1), ("1", 2)]:
+            part = levels[:, :, ::step, ::step, ::step]
+            group.create_array(name, shape=part.shape, chunks=(1, 1, 8, 16, 16), dtype="uint16")[:] = part
+        same(path, levels[0, 0], affine, folder)
+        same(path / "0", levels[0, 0], affine, folder)
+        same(path / "1", levels[0, 0, ::2, ::2, ::2], np.diag([*(2 * np.array(SPACING)), 1.0]), folder)
+
+
+@check("ome_zarr", "zarr")
+def images_of_ome_zarr_py(folder):
+    import zarr
+    from ome_zarr.writer import write_image
+
+    for version in [2, 3]:
+        path = folder / f"written{version}.zarr"
+        group = zarr.open_group(path, mode="w", zarr_format=version)
+        units = dict.fromkeys("zyx", "millimeter")
+        write_image(small("uint16"), group, axes="zyx", scale=dict(zip("xyz", SPACING)), axes_units=units)
+        same(path, small("uint16"), np.diag([*SPACING, 1.0]), folder)
 
 
 def write_series(folder, syntax, tilt=0.0, name="slice"):

@@ -111,3 +111,53 @@ fn flags_of_a_volume_without_a_scene_are_misuse_with_a_scene() {
     place.refused("render small.nrrd -o a.png --save-scene a.png", 2, &["both name"]);
     place.refused("render small.nrrd -o a.png --save-scene small.nrrd", 2, &["is read"]);
 }
+
+/// An array of Zarr with two channels: a ball, and a cube that is larger.
+fn place_of_zarr() -> Place {
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("cells.zarr")).unwrap();
+    place.write("cells.zarr/.zarray", r#"{"zarr_format":2,"shape":[2,12,12,12],"chunks":[1,12,12,12],"dtype":"|u1","order":"C","fill_value":0,"compressor":null,"filters":null}"#);
+    place.write(
+        "cells.zarr/.zattrs",
+        r#"{"_ARRAY_DIMENSIONS":["c","z","y","x"],"spacing":[1,1,1,1]}"#,
+    );
+    let from_middle = |i: usize| [i / 144, i / 12 % 12, i % 12].map(|n| (n as f32 - 5.5).abs());
+    let ball = |i: usize| from_middle(i).iter().map(|d| d * d).sum::<f32>() < 9.0;
+    let cube = |i: usize| from_middle(i).iter().all(|d| *d < 5.0);
+    let bytes = |inside: &dyn Fn(usize) -> bool| {
+        (0..1728).map(|i| u8::from(inside(i)) * 200).collect::<Vec<_>>()
+    };
+    place.write("cells.zarr/0.0.0.0", bytes(&ball));
+    place.write("cells.zarr/1.0.0.0", bytes(&cube));
+    place
+}
+
+#[test]
+fn a_folder_of_zarr_is_drawn_and_a_channel_of_it_chosen() {
+    let place = place_of_zarr();
+    let ran = place.done("render cells.zarr -o a.png --size 40x40");
+    assert!(ran.err.contains("of its 2 channels"), "{}", ran.err);
+    place.done("render cells.zarr -o b.png --size 40x40 --set volume.volume.channel=1 --set observer.view.height_mm=20");
+    place.done("render cells.zarr/.zarray -o c.png --size 40x40 --set observer.view.height_mm=20");
+    let lit = |name: &str| {
+        let picture = read_picture(&place.path(name)).unwrap();
+        picture.pixels.iter().filter(|pixel| pixel[0] > 0.05).count()
+    };
+    assert!(lit("b.png") > 2 * lit("c.png"), "{} {}", lit("b.png"), lit("c.png"));
+}
+
+#[test]
+fn no_output_replaces_a_chunk_and_what_a_folder_promises_is_weighed() {
+    let place = place_of_zarr();
+    let chunk = place.read("cells.zarr/0.0.0.0");
+    place.refused("info cells.zarr -o cells.zarr/0.0.0.0", 2, &["which is read"]);
+    place.refused("render cells.zarr -o a.png --stats cells.zarr/0.0.0.0", 2, &["which is read"]);
+    place.refused("render cells.zarr -o a.png --max-memory 1000", 1, &["memory"]);
+    assert_eq!(place.read("cells.zarr/0.0.0.0"), chunk);
+    place.refused(
+        "render cells.zarr -o a.png --set volume.volume.channel=2",
+        1,
+        &["2 channels", "the first of which is 0"],
+    );
+    assert!(place.done("info cells.zarr").out.contains("12 × 12 × 12"));
+}

@@ -33,11 +33,13 @@ pub(super) fn promised(stream: &mut Stream, path: &Path, _: &Stated) -> Result<P
 
 /// Reads the one series in a folder.
 pub(super) fn read_folder(folder: &Path, stated: &Stated) -> Result<Loaded, String> {
-    volume(series::of_folder(folder)?, stated)
+    let mut loaded = volume(series::of_folder(folder)?, stated)?;
+    loaded.warnings.extend(stated.unused_choices());
+    Ok(loaded)
 }
 
 /// What the headers of the one series in a folder promise, and its files.
-pub(super) fn promised_of_folder(folder: &Path) -> Result<Promise, String> {
+pub(super) fn promised_of_folder(folder: &Path, _: &Stated) -> Result<Promise, String> {
     promise(series::of_folder(folder)?)
 }
 

@@ -39,7 +39,7 @@ pub(super) fn of_folder(folder: &Path) -> Result<Series, String> {
     }
     match all.len() {
         0 => Err(damaged.into_iter().next().unwrap_or_else(|| {
-            "is a folder without slices of DICOM; name a file, or the folder that holds the series itself"
+            "is a folder without slices of DICOM or an array of Zarr; name a file, or the folder that holds the series or the array itself"
                 .to_owned()
         })),
         1 => Ok(alike(all.into_values().flatten().collect(), None, damaged)),
