@@ -176,7 +176,8 @@ mod tests {
                 brick.fill([light, 0.5, 0.0]);
                 true
             });
-            LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new(), brightest: light }.suited()
+            LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new(), brightest: light }
+                .suited()
         };
         assert_eq!(kind(0.5, 1.0), TexelKind::U16);
         assert_eq!(kind(0.5, 3.9), TexelKind::U16);
@@ -208,7 +209,9 @@ mod tests {
         let base = colors(&opacity, [1.0; 3]);
         let shadowed = Vec::new();
         let lit_layer = LitLayer { opacity: &opacity, base: &base, shadowed, brightest: 1.0 };
-        let (GelBricks::F32(gel), _) = lit_layer.gel(TexelKind::F32) else { panic!("as asked for") };
+        let (GelBricks::F32(gel), _) = lit_layer.gel(TexelKind::F32) else {
+            panic!("as asked for")
+        };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {

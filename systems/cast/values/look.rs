@@ -39,7 +39,8 @@ impl Values<'_> {
             side_by_side::set(&mut gradients, at, Vec3::from(sampled.gradient));
         }
         let alphas = self.classifier.opacities(&values, &gradients);
-        let mut colors: Vectors<N> = side_by_side::all(self.classifier.only_color().unwrap_or_default());
+        let mut colors: Vectors<N> =
+            side_by_side::all(self.classifier.only_color().unwrap_or_default());
         if self.classifier.only_color().is_none() {
             for at in (0..N).filter(|&at| alphas[at] > 0.0) {
                 let gradient = side_by_side::one(&gradients, at).to_array();
