@@ -155,7 +155,8 @@
 //! - **A cut is shaded by its plane**, turned to the surface's own normal over a voxel under it: gradients inside the volume
 //!   have nothing to do with where it was cut.
 //! - **Gel bricks carry an apron.** A brick holds 8³ cells and the 9³ texels at their corners, so that a sample touches one
-//!   brick. It costs 42 % of memory where all is full, and nothing where all is empty, for such bricks are not stored.
+//!   brick. It costs 42 % of memory where all is full, and nothing where all is empty, for such bricks are not stored; it costs
+//!   no light, for bricks get their aprons from those after them.
 //! - **The normal is −∇f**, out of what is denser. `two_sided` materials turn it to the light.
 //! - **A clip is opacity**, baked in by `classify` as a ramp one voxel wide along its normal: a cut face shows no stairs, its inside is lit
 //!   and shadowed like any other gel, and the pyramid steps over what was cut away.
@@ -169,6 +170,7 @@
 //! - **Dust is modelled where light falls on it** (`shaft`): the paper gives every voxel a slight opacity, here a ray adds
 //!   the light's strength times the dust's at its samples, so that the volume keeps its empty space.
 //! - **Gel is kept in 16 bits** where its opacity and light allow (`texel = "auto"`): half the memory that a ray waits for.
+//!   Light above 1 is kept in parts of its brightest, which lights and material bound before any voxel is lit.
 //! - **The reference for texture filters is the exact mean** of square texels over a ray's parallelogram, weighed by area;
 //!   ellipse, trilinear, bilinear and nearest are measured against it.
 //! - **Regions that outlines of polygons cross are split to a ray a pixel from the start** (`outlines`): polygons smaller
