@@ -64,16 +64,15 @@ fn refuse(flags: &Flags) -> Result<(), Failure> {
 pub fn saved(path: &Path, scene: &Scene) -> String {
     let text = scene.resolved.clone();
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
-    match (folder, scene.files.first()) {
-        (Some(_), Some(file)) => absolute(&text, file).unwrap_or(text),
-        _ => text,
-    }
+    // A volume is named by one of its files, or by a folder that they are in.
+    let mut named = scene.files.iter().flat_map(|file| file.ancestors());
+    folder.and_then(|_| named.find_map(|path| absolute(&text, path))).unwrap_or(text)
 }
 
 /// The scene with the volume's path from the root; `None` where it is not written as it was made.
-fn absolute(text: &str, file: &Path) -> Option<String> {
-    let quoted = |path: &Path| toml::Value::String(path.display().to_string()).to_string();
-    let full = file.canonicalize().ok()?;
-    let given = file.strip_prefix("./").unwrap_or(file);
-    Some(text.replace(&format!("file = {}", quoted(given)), &format!("file = {}", quoted(&full))))
+fn absolute(text: &str, path: &Path) -> Option<String> {
+    let line = |path: &Path| format!("file = {}", toml::Value::from(path.display().to_string()));
+    let given = line(path.strip_prefix("./").unwrap_or(path));
+    let made = text.contains(&given);
+    made.then(|| path.canonicalize().ok()).flatten().map(|full| text.replace(&given, &line(&full)))
 }

@@ -147,6 +147,16 @@ fn a_folder_of_zarr_is_drawn_and_a_channel_of_it_chosen() {
 }
 
 #[test]
+fn the_saved_scene_of_a_folder_leads_back_to_it_from_another() {
+    let place = place_of_zarr();
+    std::fs::create_dir_all(place.path("kept")).unwrap();
+    place.done("render cells.zarr -o a.png --size 40x40 --save-scene kept/cells.toml");
+    place.done("render kept/cells.toml -o b.png");
+    let pixels = |name| read_picture(&place.path(name)).unwrap().pixels.to_vec();
+    assert!(pixels("a.png") == pixels("b.png"));
+}
+
+#[test]
 fn no_output_replaces_a_chunk_and_what_a_folder_promises_is_weighed() {
     let place = place_of_zarr();
     let chunk = place.read("cells.zarr/0.0.0.0");
