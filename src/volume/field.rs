@@ -60,44 +60,53 @@ impl<'a> Field<'a> {
     /// Fills in what the field is at some spots, which count as the nearest inside the grid.
     pub fn sample(&self, level: Level, spots: &[Spot], made: &mut [Sampled]) {
         with_scalars!(self.scalars, values => {
-            dispatch!(level, _simd => self.sample_all(values, spots, made));
+            if self.filter == Filter::Linear {
+                dispatch!(level, _simd => self.sample_all::<_, true>(values, spots, made));
+            } else {
+                dispatch!(level, _simd => self.sample_all::<_, false>(values, spots, made));
+            }
         });
     }
 
     /// Fills in the values of the field at some spots, to the last bit those that [`sample`](Self::sample) finds.
     pub fn values(&self, level: Level, spots: &[Spot], made: &mut [f32]) {
         with_scalars!(self.scalars, values => {
-            dispatch!(level, _simd => self.values_all(values, spots, made));
+            if self.filter == Filter::Linear {
+                dispatch!(level, _simd => self.values_all::<_, true>(values, spots, made));
+            } else {
+                dispatch!(level, _simd => self.values_all::<_, false>(values, spots, made));
+            }
         });
     }
 
     #[inline(always)]
-    fn values_all<T: Scalar>(&self, values: &[T], spots: &[Spot], made: &mut [f32]) {
+    fn values_all<T: Scalar, const LINEAR: bool>(
+        &self,
+        values: &[T],
+        spots: &[Spot],
+        made: &mut [f32],
+    ) {
         for (spot, made) in spots.iter().zip(made) {
-            let (x, y) = (self.axis(spot, 0, 1), self.axis(spot, 1, self.size[0]));
-            let z = self.axis(spot, 2, self.size[0] * self.size[1]);
-            let axes = [&x, &y, &z];
-            *made = if self.filter == Filter::Linear {
-                gather_value::<T, true>(values, axes)
-            } else {
-                gather_value::<T, false>(values, axes)
-            };
+            let x = self.axis::<LINEAR>(spot, 0, 1);
+            let y = self.axis::<LINEAR>(spot, 1, self.size[0]);
+            let z = self.axis::<LINEAR>(spot, 2, self.size[0] * self.size[1]);
+            *made = gather_value::<T, LINEAR>(values, [&x, &y, &z]);
         }
     }
 
     #[inline(always)]
-    fn sample_all<T: Scalar>(&self, values: &[T], spots: &[Spot], made: &mut [Sampled]) {
+    fn sample_all<T: Scalar, const LINEAR: bool>(
+        &self,
+        values: &[T],
+        spots: &[Spot],
+        made: &mut [Sampled],
+    ) {
         for (spot, made) in spots.iter().zip(made) {
             // One by one: an array of them that a closure makes is written in pieces and waited for as a whole.
-            let (x, y) = (self.axis(spot, 0, 1), self.axis(spot, 1, self.size[0]));
-            let z = self.axis(spot, 2, self.size[0] * self.size[1]);
-            let axes = [&x, &y, &z];
-            let (value, slopes) = if self.filter == Filter::Linear {
-                gather::<T, true>(values, axes)
-            } else {
-                gather::<T, false>(values, axes)
-            };
-            let [x, y, z] = slopes;
+            let x = self.axis::<LINEAR>(spot, 0, 1);
+            let y = self.axis::<LINEAR>(spot, 1, self.size[0]);
+            let z = self.axis::<LINEAR>(spot, 2, self.size[0] * self.size[1]);
+            let (value, [x, y, z]) = gather::<T, LINEAR>(values, [&x, &y, &z]);
             let gradient = self.to_world.x_axis * x + self.to_world.y_axis * y;
             let gradient = gradient + self.to_world.z_axis * z;
             *made = Sampled { value, gradient: finite(gradient).to_array() };
@@ -106,7 +115,7 @@ impl<'a> Field<'a> {
 
     /// The voxels of an axis that a spot is made of, and whether they lie side by side.
     #[inline(always)]
-    fn axis(&self, spot: &Spot, axis: usize, stride: usize) -> Axis {
+    fn axis<const LINEAR: bool>(&self, spot: &Spot, axis: usize, stride: usize) -> Axis {
         let last = self.size[axis] - 1;
         // The last plane of voxels is the end of the last cell.
         let (cell, part) = if spot.cell[axis] >= last {
@@ -114,7 +123,8 @@ impl<'a> Field<'a> {
         } else {
             (spot.cell[axis], spot.part[axis])
         };
-        let taps = Taps::new(self.filter, part);
+        // Of a linear field nothing is asked of the filter at any sample.
+        let taps = Taps::new(if LINEAR { Filter::Linear } else { self.filter }, part);
         let ends = [cell == 0, cell + 2 > last];
         if ends[0] || ends[1] {
             let before = cell.saturating_sub(1);
