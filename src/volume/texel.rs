@@ -30,10 +30,8 @@ pub const BRIGHT: f32 = 4.0;
 pub trait Texel: Copy + Default + Send + Sync + 'static {
     /// The channels as stored numbers: 1 is `1 / SCALE`.
     fn load(self) -> Vec4;
-    /// The nearest texel; integers clamp to 0..=1, and what is clear in them has no colour, however bright it was: cells
-    /// without opacity are stepped over.
-    fn store(channels: Vec4) -> Self;
-    /// [`store`](Self::store) of eight voxels in a row, channel by channel.
+    /// The nearest texels to eight voxels in a row, channel by channel; integers clamp to 0..=1, and what is clear in them has
+    /// no colour, however bright it was: cells without opacity are stepped over.
     fn store_row<S: Simd>(simd: S, channels: &[[f32; CELLS]; 4]) -> [Self; CELLS];
     /// Whether an opacity is above 0 in these numbers.
     fn is_seen(alpha: f32) -> bool;
@@ -51,9 +49,6 @@ impl Texel for [f32; 4] {
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self)
-    }
-    fn store(channels: Vec4) -> Self {
-        channels.to_array()
     }
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
@@ -74,10 +69,6 @@ impl Texel for [u16; 4] {
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
-    }
-    fn store(channels: Vec4) -> Self {
-        let texel = channels.to_array().map(|c| stored(c, 65535.0) as u16);
-        if texel[3] == 0 { Self::default() } else { texel }
     }
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
@@ -110,10 +101,6 @@ impl Texel for [u8; 4] {
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
     }
-    fn store(channels: Vec4) -> Self {
-        let texel = channels.to_array().map(|c| stored(c, 255.0) as u8);
-        if texel[3] == 0 { Self::default() } else { texel }
-    }
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
     fn store_row<S: Simd>(simd: S, channels: &[[f32; CELLS]; 4]) -> [Self; CELLS] {
@@ -127,14 +114,7 @@ impl Texel for [u8; 4] {
     const SCALE: f32 = 1.0 / 255.0;
 }
 
-/// The nearest number in 0..=`most` to a channel.
-#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
-#[inline(always)]
-fn stored(channel: f32, most: f32) -> i32 {
-    (channel.clamp(0.0, 1.0) * most + 0.5) as i32
-}
-
-/// [`stored`] of eight voxels in a row; what is clear has no color.
+/// The nearest numbers in 0..=`most` to the channels of eight voxels in a row; what is clear has no color.
 #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
 fn stored_row<S: Simd>(simd: S, channels: &[[f32; CELLS]; 4], most: f32) -> [u32x8<S>; 4] {

@@ -64,7 +64,7 @@ pub trait Fill: Sync {
 impl<F: Fn([usize; 3], &mut [Vec4]) + Sync> Fill for F {
     fn fill<S: Simd, T: Texel>(
         &self,
-        _: S,
+        simd: S,
         (size, brick): ([usize; 3], [usize; 3]),
         _: f32,
         texels: &mut [T; TEXELS],
@@ -76,7 +76,13 @@ impl<F: Fn([usize; 3], &mut [Vec4]) + Sync> Fill for F {
             row.fill(Vec4::ZERO);
             self([first[0], first[1] + y, first[2] + z], &mut row[..extent[0]]);
             let made = &mut texels[(z * ROW + y) * ROW..][..extent[0]];
-            made.iter_mut().zip(&row).for_each(|(texel, channels)| *texel = T::store(*channels));
+            let mut channels = [[0.0; CELLS]; 4];
+            for (x, voxel) in row.iter().enumerate() {
+                for (channel, value) in channels.iter_mut().zip(voxel.to_array()) {
+                    channel[x] = value;
+                }
+            }
+            made.copy_from_slice(&T::store_row(simd, &channels)[..made.len()]);
         }
     }
 }

@@ -26,15 +26,13 @@ pub fn exact_pixel<C: Caster>(
     let all = side * side;
     // Row after row, sixteen at a time: tiles of four by four would be full of rays that nobody wants.
     for begin in (0..all).step_by(LANES) {
-        let (top, end) = (begin / side, all.min(begin + LANES));
-        let at = |lane: usize| {
-            let place = (begin + lane).min(end - 1);
-            [place % side, place / side]
-        };
+        let count = LANES.min(all - begin);
+        let at = |lane: usize| [(begin + lane) % side, (begin + lane) / side];
         let place = |pixel: usize, at: usize| (pixel * POSITIONS + at) as i64 - reach as i64;
-        let off = std::array::from_fn(|lane| [at(lane)[0] as u16, (at(lane)[1] - top) as u16]);
-        let places = TilePlaces::scattered([place(x, 0), place(y, top)], off);
-        let wanted = Lanes::MAX >> (LANES - (end - begin));
+        let position = |lane: usize| [place(x, at(lane)[0]), place(y, at(lane)[1])];
+        let positions: [[i64; 2]; LANES] = std::array::from_fn(position);
+        let places = TilePlaces::single(&positions[..count]);
+        let wanted = Lanes::MAX >> (LANES - count);
         let met = caster.cast(&Packet { places, step: 1, wanted }, &mut rays, scratch, counts);
         for lane in each(if met { wanted } else { 0 }) {
             let [i, j] = at(lane).map(|n| first + n);

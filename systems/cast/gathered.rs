@@ -112,15 +112,10 @@ impl<C: Caster> Casting<'_, C> {
     /// Casts the rays that are gathered, of which there may be none.
     fn gathered(&mut self, band: &mut Band<'_>) {
         let Sparse { at, count } = std::mem::take(&mut self.sparse);
-        let Some(last) = count.checked_sub(1) else { return };
-        let own = |lane: usize| at[lane.min(last)];
-        let first: [usize; 2] =
-            std::array::from_fn(|axis| (0..count).map(|n| at[n][axis]).min().unwrap_or(0));
-        let off = std::array::from_fn(|lane| {
-            std::array::from_fn(|axis| (own(lane)[axis] - first[axis]) as u16)
-        });
-        let wanted = Lanes::MAX >> (LANES - count);
-        self.cast(band, TilePlaces::scattered(self.place(first), off), own, wanted);
+        if count > 0 {
+            let places = TilePlaces::single(&at.map(|at| self.place(at))[..count]);
+            self.cast(band, places, |lane| at[lane], Lanes::MAX >> (LANES - count));
+        }
     }
 
     /// Casts some rays, which `at` gives the positions of in the sample array.

@@ -21,8 +21,9 @@ use crate::volume::pyramid::{BLOCK, PyramidSlices};
 
 /// What a volume is at samples: gel, or values that are classified there.
 pub trait Source: Sync {
-    /// The cells in which alone it is met; `None`: as far around them as it [reaches](Self::reach), or anywhere.
-    fn cells(&self, tile: &Tile) -> Option<Cells<'_>>;
+    /// The cells in which alone it is met, if it is looked for as far from its samples as it [reaches](Self::reach); `None`:
+    /// anywhere.
+    fn cells(&self, reach: f64) -> Option<Cells<'_>>;
 
     /// Which of `lanes` (all inside the grid, and in such cells) meet anything at sample `k`, and what: associated RGBA per
     /// opacity unit; of its reflected part `fade` is left, slabs are so many opacity units thick, and there is room for what
@@ -50,7 +51,7 @@ pub trait Source: Sync {
 
 impl<T: Texel> Source for kernel::GelSlices<'_, T> {
     #[inline]
-    fn cells(&self, _: &Tile) -> Option<Cells<'_>> {
+    fn cells(&self, _: f64) -> Option<Cells<'_>> {
         Some(Self::cells(self))
     }
 
@@ -246,7 +247,7 @@ impl<S: Source> Media for Medium<'_, S> {
                 continue;
             }
             k = self.leap(entered, k, counts);
-            let Some(cells) = self.source.cells(&entered.tile) else { break };
+            let Some(cells) = self.source.cells(entered.crossings.reach) else { break };
             if k < entered.tile.some[1] {
                 self.look(simd, (entered, cells), k, counts);
             }

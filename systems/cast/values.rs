@@ -156,11 +156,11 @@ impl Source for Values<'_> {
         if self.looks_around { crossing::reach(tile) } else { 0.0 }
     }
 
-    fn cells(&self, tile: &Tile) -> Option<Cells<'_>> {
+    fn cells(&self, reach: f64) -> Option<Cells<'_>> {
         let pyramid = self.pyramid?;
         let counts = pyramid.bricks();
         if self.looks_around {
-            let reaching = PyramidSlices::reaching(crossing::reach(tile))?;
+            let reaching = PyramidSlices::reaching(reach)?;
             let (table, words) = pyramid.near(reaching)?;
             return Some(Cells { counts, table, words: Some(words) });
         }

@@ -18,11 +18,23 @@ pub(crate) struct LitLayer<'a> {
     pub base: &'a Bricks<[f32; 3]>,
     /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
     pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
-    /// What no channel of `c_T` is above; see [`of_brightness`](Self::of_brightness).
+    /// What no channel of `c_T` is above.
     pub brightest: f32,
 }
 
-impl LitLayer<'_> {
+impl<'a> LitLayer<'a> {
+    /// A layer of which no channel of `c_T` is above `known`, if that is known; else as near as can be told brick by brick.
+    #[must_use]
+    pub fn new(
+        opacity: &'a Bricks<f32>,
+        base: &'a Bricks<[f32; 3]>,
+        shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
+        known: Option<f32>,
+    ) -> Self {
+        let layer = Self { opacity, base, shadowed, brightest: f32::INFINITY };
+        Self { brightest: known.unwrap_or_else(|| layer.measured()), ..layer }
+    }
+
     /// The associated gel: `c_T · α` and α, and its interesting cells. `Auto` is decided by what there is.
     #[must_use]
     pub fn gel(&self, kind: TexelKind) -> (GelBricks, Interest) {
@@ -48,12 +60,7 @@ impl LitLayer<'_> {
         if self.brightest <= BRIGHT && opaque() { TexelKind::U16 } else { TexelKind::F32 }
     }
 
-    /// With what no channel of `c_T` is above: as it is `known`, else as near as can be told brick by brick.
-    #[must_use]
-    pub fn of_brightness(self, known: Option<f32>) -> Self {
-        Self { brightest: known.unwrap_or_else(|| self.measured()), ..self }
-    }
-
+    /// The sum over the lights of the brightest channels of any brick.
     fn measured(&self) -> f32 {
         let bricks: Vec<_> = self.opacity.stored().map(|(place, _)| place).collect();
         let most = |place: &BrickPlace| {

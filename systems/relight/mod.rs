@@ -163,12 +163,12 @@ impl Inputs {
                 let shadowed = colors.shadowed.iter().enumerate();
                 let strength = |i: usize| self.strengths.get(i).and_then(Option::as_ref);
                 let shadowed = shadowed.map(|(i, colors)| (colors, strength(i))).collect();
-                let layer = LitLayer { opacity, base: &colors.base, shadowed, brightest: 0.0 };
-                let (lit, interest) = layer.of_brightness(self.brightest).gel(self.texel);
+                let layer = LitLayer::new(opacity, &colors.base, shadowed, self.brightest);
+                let (lit, interest) = layer.gel(self.texel);
                 let ambient = colors.ambient.as_ref().map(|base| {
-                    let layer = LitLayer { opacity, base, shadowed: Vec::new(), brightest: 0.0 };
+                    let layer = LitLayer::new(opacity, base, Vec::new(), self.brightest);
                     // Both parts in the same numbers.
-                    layer.of_brightness(self.brightest).in_cells(&interest, lit.kind())
+                    layer.in_cells(&interest, lit.kind())
                 });
                 let shown = Shown { opacity: opacity.clone(), interest: Arc::new(interest) };
                 Ok(Gel { lit, ambient, shown: Some(shown) })

@@ -22,6 +22,14 @@ impl TilePlaces {
         Self { first, apart: apart as i64, off: None }
     }
 
+    /// Rays at single positions, as many as a tile has at the most; those that are left over stand where the last one does.
+    pub fn single(at: &[[i64; 2]]) -> Self {
+        let first = std::array::from_fn(|axis| at.iter().map(|at| at[axis]).min().unwrap_or(0));
+        let own = |lane: usize| at.get(lane).or(at.last()).copied().unwrap_or(first);
+        let off = |lane: usize| std::array::from_fn(|axis| (own(lane)[axis] - first[axis]) as u16);
+        Self::scattered(first, std::array::from_fn(off))
+    }
+
     /// Rays at some distances from `first`, right of it and below.
     pub fn scattered(first: [i64; 2], off: [[u16; 2]; LANES]) -> Self {
         let farthest = off.as_flattened().iter().max().copied().unwrap_or(0);

@@ -19,7 +19,12 @@ const CUT_DEEP: f64 = 0.5;
 impl Values<'_> {
     /// Whether what a sample shows is told by its value and gradient alone, and by nothing about its place or slab.
     pub(super) fn is_plain(&self) -> bool {
-        !self.integrated && self.cut.is_none() && self.strengths.iter().all(Option::is_none)
+        !self.integrated && self.is_alike_everywhere()
+    }
+
+    /// Whether nothing of what a sample shows is told by its place.
+    fn is_alike_everywhere(&self) -> bool {
+        self.cut.is_none() && self.strengths.iter().all(Option::is_none)
     }
 
     /// [`look`](Self::look) for samples of the rays `met`, `N` at the most, in their order, that are [plain](Self::is_plain): side
@@ -74,7 +79,7 @@ impl Values<'_> {
         }
         let color =
             integral.map_or_else(|| self.classifier.color(value, gradient), |(color, _)| color);
-        if self.cut.is_none() && self.strengths.iter().all(Option::is_none) {
+        if self.is_alike_everywhere() {
             let reflected = self.reflected(color, normal(gradient), DVec3::ZERO);
             return self.lit(color, reflected, fade, alpha);
         }
