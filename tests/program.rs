@@ -38,6 +38,8 @@ mod scenes;
 mod sentences;
 #[path = "program/spared.rs"]
 mod spared;
+#[path = "program/surfaces.rs"]
+mod surfaces;
 #[path = "program/targeted.rs"]
 mod targeted;
 #[path = "program/trade.rs"]

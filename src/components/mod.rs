@@ -48,7 +48,7 @@ files! {
         checked<Mesh> "mesh" [];
     molecule::{ Molecule, MoleculeStyle }
         checked<Molecule> "molecule" [];
-    smooth::{ Smooth }
+    smooth::{ Smooth, SmoothNormals }
         row<Smooth> "smooth" ["mesh", "molecule"];
     light::{ CastsShadow, Light, Observer, Shaft, Toward }
         checked<Light> "light" []

@@ -11,10 +11,23 @@ pub struct Smooth {
     /// Triangles that meet at a greater angle than this meet in an edge that is seen, degrees: 0 leaves all flat, 180 shows none.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub crease_degrees: f64,
+    /// Which normals its corners have.
+    pub normals: SmoothNormals,
+}
+
+/// Where normals at the corners of triangles are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SmoothNormals {
+    /// The mesh's file (OBJ, PLY, glTF, VTK), whatever the angle, and the triangles where it states none.
+    #[default]
+    File,
+    /// The triangles that meet there, at no greater angle than `crease_degrees`.
+    Triangles,
 }
 
 impl Default for Smooth {
     fn default() -> Self {
-        Self { crease_degrees: 60.0 }
+        Self { crease_degrees: 60.0, normals: SmoothNormals::default() }
     }
 }

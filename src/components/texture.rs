@@ -28,7 +28,8 @@ pub struct Texture {
 pub struct Textured {
     /// The name of an entity with a `texture`, or of a formula.
     pub texture: String,
-    /// World points of the texture's top left, top right and bottom left corners; default: the polygon's first, second and last vertex.
+    /// World points of the texture's top left, top right and bottom left corners; default: the polygon's first, second and last vertex,
+    /// or where a mesh's file (OBJ, PLY, glTF, VTK) says that its triangles lie in it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub corners: Option<[[f64; 3]; 3]>,
     /// How many times the texture is laid across and down between those corners, each above 0. Only the first of them

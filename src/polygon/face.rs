@@ -109,6 +109,15 @@ impl Face {
         simple::check(&outlines, normal)?;
         Ok(Self { normal, center, outlines })
     }
+
+    /// The corners of a triangle without holes, in the order stated; `None` of any other polygon.
+    #[must_use]
+    pub(crate) fn triangle(&self) -> Option<[DVec3; 3]> {
+        match &self.outlines[..] {
+            [outline] => outline.first_chunk::<3>().filter(|_| outline.len() == 3).copied(),
+            _ => None,
+        }
+    }
 }
 
 /// Whether all vertices lie on the line through their mean and the vertex farthest from it.

@@ -13,12 +13,28 @@ const MOST_AROUND: usize = 64;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CornerNormals(pub Shared<[DVec3; 3]>);
 
+/// Unit normals at the corners of each face of one entity that its file states; no numbers on a face of which it states none.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StatedNormals(pub Shared<[DVec3; 3]>);
+
 impl CornerNormals {
+    /// The normals that a file states, and where it states none those [`of`](Self::of) the triangles.
+    #[must_use]
+    pub fn stated(stated: &StatedNormals, faces: &[Face], crease: f64) -> Self {
+        let is_whole = |three: &&[DVec3; 3]| three.iter().all(|normal| normal.is_finite());
+        if stated.0.len() == faces.len() && stated.0.iter().all(|three| is_whole(&three)) {
+            return Self(stated.0.clone());
+        }
+        let made = Self::of(faces, crease);
+        let own = |at: usize| stated.0.get(at).filter(is_whole).unwrap_or(&made.0[at]);
+        Self(Shared::new((0..faces.len()).map(|at| *own(at)).collect()))
+    }
+
     /// The normals of triangles that meet at angles of at most `crease` (radians) are joined, each weighed by its angle at the
     /// corner. Faces that are no triangles stay flat, and so does one whose neighbors run the other way around.
     #[must_use]
     pub fn of(faces: &[Face], crease: f64) -> Self {
-        let corners: Vec<_> = faces.iter().map(corners).collect();
+        let corners: Vec<_> = faces.iter().map(Face::triangle).collect();
         let own = |at: usize| corners[at].unwrap_or([faces[at].center; 3]);
         let (numbers, count) = welded((0..faces.len()).flat_map(own));
         let mut around = vec![Vec::new(); count];
@@ -51,7 +67,7 @@ impl CornerNormals {
         if normals.iter().all(|normal| normal == &face.normal) {
             return None;
         }
-        let [a, b, c] = corners(face)?;
+        let [a, b, c] = face.triangle()?;
         // The point a + s (b − a) + t (c − a) has the normal n_a + s (n_b − n_a) + t (n_c − n_a).
         let from = DMat3::from_cols(b - a, c - a, face.normal);
         if from.determinant() == 0.0 {
@@ -60,14 +76,6 @@ impl CornerNormals {
         let to = DMat3::from_cols(normals[1] - normals[0], normals[2] - normals[0], DVec3::ZERO);
         let matrix3 = to * from.inverse();
         Some(DAffine3 { matrix3, translation: normals[0] - matrix3 * a })
-    }
-}
-
-/// The corners of a triangle without holes.
-fn corners(face: &Face) -> Option<[DVec3; 3]> {
-    match &face.outlines[..] {
-        [outline] => outline.first_chunk::<3>().filter(|_| outline.len() == 3).copied(),
-        _ => None,
     }
 }
 
@@ -97,7 +105,7 @@ mod tests {
         let (mut worst, mut flat) = (0.0_f64, 0.0_f64);
         for (at, face) in faces.iter().enumerate() {
             let normal = smooth.over(at, face).unwrap();
-            let [a, b, c] = corners(face).unwrap();
+            let [a, b, c] = face.triangle().unwrap();
             for point in [a, b, (a + b) / 2.0, (a + b + c) / 3.0] {
                 let true_normal = (point - DVec3::new(5.0, 0.0, 0.0)).normalize();
                 let found = normal.transform_point3(point).normalize();
@@ -106,6 +114,20 @@ mod tests {
             }
         }
         assert!(worst < 0.4 && flat > 4.0, "{worst} {flat}");
+    }
+
+    #[test]
+    fn normals_that_are_stated_take_the_place_of_those_of_triangles_where_they_are_numbers() {
+        let faces = ball();
+        let mut stated = vec![[DVec3::X, DVec3::Y, DVec3::Z]; faces.len()];
+        let normals = |stated: &[[DVec3; 3]]| {
+            CornerNormals::stated(&StatedNormals(Shared::new(stated.to_vec())), &faces, 1.0).0
+        };
+        assert_eq!(normals(&stated)[7], stated[7]);
+        stated[7][1] = DVec3::NAN;
+        let made = CornerNormals::of(&faces, 1.0).0;
+        let mixed = normals(&stated);
+        assert_eq!((mixed[7], mixed[8]), (made[7], stated[8]));
     }
 
     #[test]

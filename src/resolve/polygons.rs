@@ -8,10 +8,10 @@ use hecs::{Entity, World};
 use super::carriers::carriers;
 use super::fault::Fault;
 use super::fill::{fill, fill_from, withdraw};
-use crate::components::{Mesh, Polygon, Smooth, Surface, Voxelize};
+use crate::components::{Mesh, Polygon, Smooth, SmoothNormals, Surface, Voxelize};
 use crate::polygon::face::{Face, Faces};
 use crate::polygon::shape;
-use crate::polygon::smooth::CornerNormals;
+use crate::polygon::smooth::{CornerNormals, StatedNormals};
 use crate::volume::grid::Grid;
 
 /// Gives every polygon and mesh its faces, and all faces a surface.
@@ -42,18 +42,27 @@ pub(super) fn fill_in(world: &mut World) -> Result<(), Fault> {
     Ok(())
 }
 
+/// What normals at corners are made of.
+type Bending = (Smooth, Faces, Option<StatedNormals>);
+
 /// Gives faces that are to look smooth the normals of their corners, and takes them off others.
 fn bend(world: &mut World, entity: Entity) -> Result<(), Fault> {
     let smooth = world.get::<&Smooth>(entity).map(|smooth| *smooth).ok();
     let faces = world.get::<&Faces>(entity).map(|faces| (*faces).clone()).ok();
     let (Some(smooth), Some(faces)) = (smooth, faces) else {
-        withdraw::<(Smooth, Faces), CornerNormals>(world, entity);
+        withdraw::<Bending, CornerNormals>(world, entity);
         return Ok(());
     };
-    let normals = |(smooth, faces): &(Smooth, Faces)| {
-        Ok(CornerNormals::of(&faces.0, smooth.crease_degrees.to_radians()))
+    let stated = world.get::<&StatedNormals>(entity).map(|normals| (*normals).clone()).ok();
+    let stated = stated.filter(|_| smooth.normals == SmoothNormals::File);
+    let normals = |(smooth, faces, stated): &Bending| {
+        let crease = smooth.crease_degrees.to_radians();
+        Ok(match stated {
+            Some(stated) => CornerNormals::stated(stated, &faces.0, crease),
+            None => CornerNormals::of(&faces.0, crease),
+        })
     };
-    fill(world, entity, (smooth, faces), normals).map(drop)
+    fill(world, entity, (smooth, faces, stated), normals).map(drop)
 }
 
 fn faces_of_polygon(entity: Entity, polygon: &Polygon) -> Result<Faces, Fault> {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use hecs::{Entity, World};
 
 use super::carriers::{carriers, get};
@@ -10,12 +10,12 @@ use super::fault::{Fault, Notice};
 use super::fill::{Became, fill, fill_from, withdraw};
 use crate::components::{self, Name, Polygon, Textured, Voxelize};
 use crate::phantom;
-use crate::polygon::texture::{MappedTexture, TexturedBy};
+use crate::polygon::texture::{Lies, MappedTexture, TexturePlaces, TexturedBy};
 use crate::view::picture::Picture;
 
 /// What a texture on a polygon is made of: the statement, the texels of the entity that it names (else it names a
-/// formula), and three corners of the polygon.
-type Named = (Textured, Option<MappedTexture>, Option<[[f64; 3]; 3]>);
+/// formula), and where the texture lies, if anything says.
+type Named = (Textured, Option<MappedTexture>, Option<Lies>);
 
 /// Gives every entity that states `textured` the texture itself.
 pub(super) fn fill_in(world: &mut World, notices: &mut Vec<Notice>) -> Result<(), Fault> {
@@ -31,13 +31,8 @@ pub(super) fn fill_in(world: &mut World, notices: &mut Vec<Notice>) -> Result<()
             Some(carrier) => texels(world, carrier, &textured)?,
             None => None,
         };
-        let corners = match get::<Polygon>(world, entity).map(|polygon| polygon.vertices) {
-            Some(vertices) if vertices.len() > 2 => {
-                Some([vertices[0], vertices[1], vertices[vertices.len() - 1]])
-            }
-            _ => None,
-        };
-        let named = (textured, texels, corners);
+        let lies = lies(world, entity, &textured);
+        let named = (textured, texels, lies);
         let made = fill(world, entity, named, |named| laid(entity, named, &mut formulas))?;
         let voxelized = get::<Voxelize>(world, entity).is_some();
         if voxelized && made == Became::Made {
@@ -46,6 +41,21 @@ pub(super) fn fill_in(world: &mut World, notices: &mut Vec<Notice>) -> Result<()
         }
     }
     Ok(())
+}
+
+/// Where a texture lies: as stated, else by three corners of a polygon, else where a mesh's file says.
+fn lies(world: &World, entity: Entity, textured: &Textured) -> Option<Lies> {
+    if let Some(corners) = textured.corners {
+        return Some(Lies::Corners(corners.map(DVec3::from)));
+    }
+    if let Some(polygon) = get::<Polygon>(world, entity)
+        && let [first, second, .., last] = polygon.vertices[..]
+    {
+        return Some(Lies::Corners([first, second, last].map(DVec3::from)));
+    }
+    let places = get::<TexturePlaces>(world, entity)?;
+    let is_one = |places: &[DVec2; 3]| places.iter().all(|place| place.is_finite());
+    places.0.iter().any(is_one).then_some(Lies::Places(places))
 }
 
 /// The entity that a picture of that name is on; `None` for the name of a formula, and a fault of who names it for others.
@@ -85,7 +95,7 @@ fn texels(
 /// The texture of an entity, where it lies. A formula is made once for all that name it.
 fn laid(
     entity: Entity,
-    (textured, texels, corners): &Named,
+    (textured, texels, lies): &Named,
     formulas: &mut HashMap<String, MappedTexture>,
 ) -> Result<TexturedBy, Fault> {
     let Textured { wrap, filter, texture: name, .. } = textured;
@@ -99,15 +109,16 @@ fn laid(
             texture
         }
     };
-    let Some(corners) = textured.corners.or(*corners) else {
-        let problem = "a mesh says nothing about where its texture lies; state `corners`";
+    let Some(lies) = lies.clone() else {
+        let problem = "its mesh says nothing about where its texture lies; state `corners`";
         return Err(Fault::of(entity, "textured", "", problem));
     };
-    let corners = corners.map(DVec3::from);
-    let (across, down) = (corners[1] - corners[0], corners[2] - corners[0]);
-    if across.cross(down).length() <= 1e-12 * across.length() * down.length() {
-        let problem = "the corners of its texture lie on one line; state three that span it";
-        return Err(Fault::of(entity, "textured", "corners", problem));
+    if let Lies::Corners(corners) = &lies {
+        let (across, down) = (corners[1] - corners[0], corners[2] - corners[0]);
+        if across.cross(down).length() <= 1e-12 * across.length() * down.length() {
+            let problem = "the corners of its texture lie on one line; state three that span it";
+            return Err(Fault::of(entity, "textured", "corners", problem));
+        }
     }
-    Ok(TexturedBy { textured: textured.clone(), texture, corners })
+    Ok(TexturedBy { textured: textured.clone(), texture, lies })
 }

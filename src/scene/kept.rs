@@ -12,6 +12,8 @@ use crate::components::{Classify, Labels, Mesh, Molecule, Texture, Volume};
 use crate::formats::Loaded;
 use crate::measure::sigma::{Sigma, sigma};
 use crate::polygon::face::{FaceColors, Faces};
+use crate::polygon::smooth::StatedNormals;
+use crate::polygon::texture::TexturePlaces;
 use crate::view::picture::Picture;
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::labels::Tint;
@@ -50,8 +52,12 @@ pub(super) struct KeptPicture {
 #[derive(Clone)]
 pub(super) struct KeptMesh {
     pub stated: Mesh,
+    /// Whether its normals were asked for, and its places in a texture.
+    pub asked: [bool; 2],
     pub faces: Faces,
     pub colors: Option<FaceColors>,
+    pub normals: Option<StatedNormals>,
+    pub places: Option<TexturePlaces>,
     pub files: Vec<PathBuf>,
 }
 

@@ -2,25 +2,43 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::kept::KeptMesh;
 use super::loading::Loading;
-use crate::components::{Color, Mesh, Space};
+use crate::components::{Color, Mesh, Smooth, Space, Textured};
 use crate::error::Error;
-use crate::formats::meshes::read_mesh;
+use crate::formats::meshes::{AtCorners, Triangles, read_mesh};
 use crate::polygon::face::{Face, FaceColors, Faces};
+use crate::polygon::smooth::StatedNormals;
+use crate::polygon::texture::TexturePlaces;
 use crate::shared::Shared;
+
+/// The triangles of a file in the world: their faces, and of each a color, normals and places in a texture, if any has them.
+#[derive(Default)]
+struct Read {
+    faces: Vec<Face>,
+    colors: Vec<Color>,
+    normals: Vec<[DVec3; 3]>,
+    places: Vec<[DVec2; 3]>,
+}
 
 /// Reads every mesh that names a file.
 pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
     for entry in loading.nouns(&["mesh"]) {
         let Some(mesh) = loading.get::<Mesh>(entry) else { continue };
         let Some(file) = mesh.file.clone() else { continue };
-        let KeptMesh { faces, colors, .. } = kept_or_read(loading, entry, mesh, &file)?;
+        let KeptMesh { faces, colors, normals, places, .. } =
+            kept_or_read(loading, entry, mesh, &file)?;
         loading.add(entry, (faces,));
         if let Some(colors) = colors {
             loading.add(entry, (colors,));
+        }
+        if let Some(normals) = normals {
+            loading.add(entry, (normals,));
+        }
+        if let Some(places) = places {
+            loading.add(entry, (places,));
         }
     }
     Ok(())
@@ -34,29 +52,35 @@ fn kept_or_read(
     file: &str,
 ) -> Result<KeptMesh, Error> {
     let name = loading.entries[entry].name.clone();
-    if let Some(kept) = loading.kept.meshes.get(&name).filter(|kept| kept.stated == mesh) {
+    let asked = [loading.get::<Smooth>(entry).is_some(), loading.get::<Textured>(entry).is_some()];
+    let is_same = |kept: &&KeptMesh| kept.stated == mesh && kept.asked == asked;
+    if let Some(kept) = loading.kept.meshes.get(&name).filter(is_same) {
         loading.files.extend(kept.files.iter().cloned());
         return Ok(kept.clone());
     }
     let before = loading.files.len();
-    let (faces, colors) = of_file(loading, entry, file, &mesh)?;
+    let Read { faces, colors, normals, places } = of_file(loading, entry, file, (&mesh, asked))?;
     let kept = KeptMesh {
         stated: mesh,
+        asked,
         faces: Faces(Arc::new(faces)),
         colors: (!colors.is_empty()).then(|| FaceColors(Shared::new(colors))),
+        // Where they are asked for and there are none, none take the place of those of another file.
+        normals: asked[0].then(|| StatedNormals(Shared::new(normals))),
+        places: asked[1].then(|| TexturePlaces(Shared::new(places))),
         files: loading.files[before..].to_vec(),
     };
     loading.kept.meshes.insert(name, kept.clone());
     Ok(kept)
 }
 
-/// The triangles of a file, in the world, and their colors if it has any; those without an area are left out and said.
+/// The triangles of a file, in the world; those without an area are left out and said.
 fn of_file(
     loading: &mut Loading,
     entry: usize,
     file: &str,
-    &Mesh { space, unit_mm, .. }: &Mesh,
-) -> Result<(Vec<Face>, Vec<Color>), Error> {
+    (mesh, asked): (&Mesh, [bool; 2]),
+) -> Result<Read, Error> {
     let Some(path) = loading.folders.find(file) else {
         let missing = loading.folders.missing(file);
         let problem = format!("{missing}; name its folder as a data folder");
@@ -66,30 +90,19 @@ fn of_file(
     loading.files.push(path.clone());
     // A triangle takes 50 bytes at the least in a file, and a face of the world four times that.
     loading.afford(bytes.saturating_mul(4))?;
-    let read = read_mesh(&path)?;
-    loading.files.extend(read.beside.iter().cloned());
-    for warning in &read.warnings {
+    let triangles = as_asked(read_mesh(&path)?, asked);
+    loading.files.extend(triangles.beside.iter().cloned());
+    for warning in &triangles.warnings {
         loading.warn(entry, warning.clone());
     }
-    let unit = unit_mm.or(read.unit_mm).unwrap_or(1.0);
-    let world = |v: DVec3| {
-        unit * match space.or(read.space).unwrap_or(Space::Lps) {
-            Space::Lps => v,
-            Space::Ras => DVec3::new(-v.x, -v.y, v.z),
-            Space::YUp => DVec3::new(v.x, -v.z, v.y),
-        }
-    };
-    let corner = |at: u32| world(read.vertices[at as usize]);
-    let (mut faces, mut colors) = (Vec::new(), Vec::new());
-    for face in &read.faces {
-        if let Ok(made) = Face::new(vec![face.map(corner).to_vec()]) {
-            faces.push(made);
-            colors.extend(read.color(*face));
-        }
+    loading.afford(bytes_at_corners(&triangles))?;
+    let read = in_the_world(&triangles, mesh);
+    for warning in gaps(&read) {
+        loading.warn(entry, warning);
     }
-    match read.faces.len() - faces.len() {
+    match triangles.faces.len() - read.faces.len() {
         0 => {}
-        all if faces.is_empty() => {
+        all if read.faces.is_empty() => {
             let problem = format!("none of its {all} triangles has an area; check its `unit_mm`");
             return Err(loading.error(entry, "mesh", "file", problem));
         }
@@ -98,5 +111,71 @@ fn of_file(
             format!("{some} of its triangles have no area or vertices that are no numbers, and are left out"),
         ),
     }
-    Ok((faces, colors))
+    Ok(read)
+}
+
+/// Triangles without normals that are not asked for, and without places in a texture.
+fn as_asked(mut triangles: Triangles, [smooth, textured]: [bool; 2]) -> Triangles {
+    if !smooth {
+        triangles.normals = AtCorners::default();
+    }
+    if !textured {
+        triangles.places = AtCorners::default();
+    }
+    triangles
+}
+
+/// Bytes of what is kept of corners, in the world.
+fn bytes_at_corners(triangles: &Triangles) -> u64 {
+    let none = [triangles.normals.values.is_empty(), triangles.places.values.is_empty()];
+    let sizes = [size_of::<[DVec3; 3]>(), size_of::<[DVec2; 3]>()];
+    let kept = none.into_iter().zip(sizes).filter(|(none, _)| !none).map(|(_, size)| size);
+    (triangles.faces.len() * kept.sum::<usize>()) as u64
+}
+
+/// Sentences about triangles that lack what others of the file have.
+fn gaps(read: &Read) -> Vec<String> {
+    let bent = |normals: &&[DVec3; 3]| normals.iter().all(|normal| normal.is_finite());
+    let laid = |places: &&[DVec2; 3]| places.iter().all(|place| place.is_finite());
+    let without = [
+        (
+            read.normals.len() - read.normals.iter().filter(bent).count(),
+            "have no normals of their own, or some without a direction, and are lit by computed ones",
+        ),
+        (
+            read.places.len() - read.places.iter().filter(laid).count(),
+            "lie nowhere in a texture, and show none of it",
+        ),
+    ];
+    let without = without.into_iter().filter(|(count, _)| *count > 0);
+    without.map(|(count, what)| format!("{count} of its triangles {what}")).collect()
+}
+
+/// The triangles that have an area.
+fn in_the_world(triangles: &Triangles, &Mesh { space, unit_mm, .. }: &Mesh) -> Read {
+    let unit = unit_mm.or(triangles.unit_mm).unwrap_or(1.0);
+    let space = space.or(triangles.space).unwrap_or(Space::Lps);
+    let turned = |v: DVec3| match space {
+        Space::Lps => v,
+        Space::Ras => DVec3::new(-v.x, -v.y, v.z),
+        Space::YUp => DVec3::new(v.x, -v.z, v.y),
+    };
+    let [bent, laid] = [!triangles.normals.values.is_empty(), !triangles.places.values.is_empty()];
+    let unit_normal = |normal: DVec3| turned(normal).try_normalize().unwrap_or(DVec3::NAN);
+    let mut read = Read::default();
+    for (at, face) in triangles.faces.iter().enumerate() {
+        let corners = face.map(|at| unit * turned(triangles.vertices[at as usize]));
+        let Ok(made) = Face::new(vec![corners.to_vec()]) else { continue };
+        read.faces.push(made);
+        read.colors.extend(triangles.color(*face));
+        if bent {
+            let own = triangles.normals.of(at, *face);
+            read.normals.push(own.map_or([DVec3::NAN; 3], |own| own.map(unit_normal)));
+        }
+        if laid {
+            let own = triangles.places.of(at, *face);
+            read.places.push(own.unwrap_or([DVec2::NAN; 3]));
+        }
+    }
+    read
 }

@@ -102,7 +102,7 @@ fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -
     let projected = inputs.polygons.iter().flat_map(|traced| {
         traced.faces.0.iter().enumerate().filter_map(|(at, face)| {
             let texture =
-                traced.textured.as_ref().and_then(|by| FaceTexture::new(by, face, camera));
+                traced.textured.as_ref().and_then(|by| FaceTexture::new(by, (at, face), camera));
             let offsets = traced.grid.as_ref().map_or_else(Vec::new, |grid| {
                 receiving::shadow_offsets(face.normal, lamps, &inputs.strengths, grid)
             });

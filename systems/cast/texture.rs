@@ -2,7 +2,6 @@
 
 use glam::Vec4;
 
-use crate::components::Textured;
 use crate::polygon::face::Face;
 use crate::polygon::texture::TexturedBy;
 use crate::polygon::texture::{Footprint, MappedTexture, Mapping};
@@ -24,10 +23,10 @@ pub(crate) struct FaceTexture {
 const SIDES: [f64; 3] = [1.0, 0.5, 0.25];
 
 impl FaceTexture {
-    /// The texture as it lies on `face`; `None` where it stands upright on the face and shows it nothing.
-    pub fn new(by: &TexturedBy, face: &Face, camera: &Camera) -> Option<Self> {
-        let corners = Some(by.corners.map(|corner| corner.to_array()));
-        let mapping = Mapping::new(face, &Textured { corners, ..by.textured.clone() }).ok()?;
+    /// The texture as it lies on `face` of that number; `None` where it shows none of it on the face, such as
+    /// upright on it.
+    pub fn new(by: &TexturedBy, (at, face): (usize, &Face), camera: &Camera) -> Option<Self> {
+        let mapping = by.mapping(at, face)?;
         let sight = Ray { origin: camera.focal, along: camera.forward };
         let footprints = camera
             .eye

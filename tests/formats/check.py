@@ -2,7 +2,7 @@
 
 Run as `python3 tests/formats/check.py PROGRAM`; PROGRAM is a built gelray. Each check needs a Python package and is left
 out, with a line that says so, where it is missing: numpy (for all), pydicom, SimpleITK, nibabel, tifffile, vtk,
-trimesh, zarr, ome_zarr.
+trimesh, PIL, zarr, ome_zarr.
 Exit code 1 where anything differs.
 """
 
@@ -318,7 +318,7 @@ def a_tilted_gantry_is_sheared_and_not_resampled(folder):
 
 def drawn(path, folder):
     """A picture of a mesh, its coordinates taken as the world's whatever its format says of them."""
-    plain = ["--set", "mesh.mesh.space=lps", "--set", "mesh.mesh.unit_mm=1"]
+    plain = ["--set", "mesh.mesh.space=lps", "--set", "mesh.mesh.unit_mm=1", "--set", "mesh.smooth.normals=triangles"]
     run("render", path, "-o", folder / "drawn.npy", "--size", "64x64", "-q", *plain)
     return np.load(folder / "drawn.npy")
 
@@ -387,6 +387,104 @@ def meshes_of_vtk_are_drawn_alike(folder):
             getattr(writer, f"SetFileTypeTo{kind}")()
             write(writer, f"{kind}{version}.vtk")
     alike(paths, folder)
+
+
+def painted(path, folder, *more):
+    """A picture of a mesh in a texture, lit by its own normals; coordinates as in `drawn`."""
+    scene = folder / "painted.toml"
+    scene.write_text(f'''
+[[entity]]
+name = "mesh"
+mesh = {{ file = "{path}", space = "lps", unit_mm = 1 }}
+smooth = {{}}
+textured = {{ texture = "portrait" }}
+[[entity]]
+name = "key"
+light = {{ toward = [-1, -1, 0.5] }}
+[[entity]]
+name = "observer"
+view = {{ size = [96, 96], azimuth = 20, elevation = 10 }}
+''')
+    run("render", scene, "-o", folder / "painted.npy", "-q", "--exact", *more)
+    return np.load(folder / "painted.npy")
+
+
+def painted_alike(paths, folder):
+    """Meshes that have normals and places in a texture are painted alike, and not as they would be without."""
+    pictures = [painted(path, folder) for path in paths]
+    for path, picture in zip(paths, pictures):
+        apart = np.abs(picture - pictures[0]).max()
+        assert apart < 0.05, f"{path.name} differs by {apart}"
+    one = "mesh.textured.corners=[[-90,0,90],[90,0,90],[-90,0,-90]]"
+    for other in ["mesh.smooth.normals=triangles", one]:
+        apart = np.abs(painted(paths[0], folder, "--set", other) - pictures[0]).max()
+        assert apart > 0.2, f"{other} makes no difference"
+
+
+@check("trimesh", "PIL")
+def normals_and_places_of_trimesh_are_painted_alike(folder):
+    import trimesh
+    from PIL import Image
+
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=10.0)
+    points = ball.vertices
+    normals = points * [1, 1, 0.1] / np.linalg.norm(points * [1, 1, 0.1], axis=1)[:, None]
+    uv = points[:, [0, 2]] / 20 + 0.5
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=Image.new("RGB", (4, 4)))
+    visual = trimesh.visual.TextureVisuals(uv=uv, material=material)
+    mesh = trimesh.Trimesh(points, ball.faces, vertex_normals=normals, visual=visual, process=False)
+    paths = [folder / name for name in ["ball.obj", "ball.glb"]]
+    mesh.export(paths[0], include_normals=True)
+    mesh.export(paths[1], include_normals=True)
+    painted_alike(paths, folder)
+
+
+@check("vtk")
+def normals_and_places_of_vtk_are_painted_alike(folder):
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+    ball = vtk.vtkSphereSource()
+    ball.SetRadius(10)
+    ball.SetThetaResolution(48)
+    ball.SetPhiResolution(32)
+    ball.Update()
+    mesh = ball.GetOutput()
+    # Of so few digits that text rounds none.
+    points = np.round(vtk_to_numpy(mesh.GetPoints().GetData()), 3).astype("f4")
+    mesh.GetPoints().SetData(numpy_to_vtk(points, deep=True))
+    arrays = {"Normals": points * [1, 1, 0.1], "TCoords": points[:, [0, 2]] / 20 + 0.5, "Scalars": points[:, 0]}
+    for use, array in arrays.items():
+        if use == "Normals":
+            array = array / np.linalg.norm(array, axis=1)[:, None]
+        own = numpy_to_vtk(np.ascontiguousarray(array, "f4"), deep=True)
+        own.SetName("own_" + use.lower())
+        getattr(mesh.GetPointData(), "Set" + use)(own)
+    cells = numpy_to_vtk(np.arange(mesh.GetNumberOfCells(), dtype="i8"), deep=True)
+    cells.SetName("number")
+    mesh.GetCellData().AddArray(cells)
+    paths = []
+
+    def write(writer, name):
+        writer.SetInputData(mesh)
+        writer.SetFileName(str(folder / name))
+        assert writer.Write() == 1
+        paths.append(folder / name)
+
+    write(vtk.vtkXMLPolyDataWriter(), "ball.vtp")
+    for version in [42, 51]:
+        for kind in ["ASCII", "Binary"]:
+            writer = vtk.vtkPolyDataWriter()
+            writer.SetFileVersion(version)
+            getattr(writer, f"SetFileTypeTo{kind}")()
+            write(writer, f"{kind}{version}.vtk")
+    write(vtk.vtkOBJWriter(), "ball.obj")
+    for kind in ["ASCII", "Binary"]:
+        writer = vtk.vtkPLYWriter()
+        getattr(writer, f"SetFileTypeTo{kind}")()
+        writer.SetTextureCoordinatesNameToTextureUV()
+        write(writer, f"{kind}.ply")
+    painted_alike(paths, folder)
 
 
 def main():

@@ -15,7 +15,7 @@ use std::path::Path;
 
 use super::stream::Stream;
 use crate::error::Error;
-pub use triangles::Triangles;
+pub use triangles::{AtCorners, Triangles};
 
 /// A format of meshes: a row of `MESH_FORMATS`.
 pub struct MeshFormat {
@@ -90,6 +90,9 @@ fn with_all_colors(mut triangles: Triangles) -> Triangles {
         let warning =
             "some of its vertices have no color, and so the colors of the others are left out";
         triangles.warnings.push(warning.to_owned());
+    }
+    for color in triangles.colors.iter_mut().filter(|color| !color.0.is_finite()) {
+        color.0 = glam::Vec3::ZERO;
     }
     triangles
 }

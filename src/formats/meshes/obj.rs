@@ -1,47 +1,75 @@
-//! Wavefront OBJ: vertices, their colors, and polygons as lines of text; materials, normals and texture coordinates are not read.
+//! Wavefront OBJ: vertices, their colors and normals, places in a texture, and polygons as lines of text; materials are not read.
 
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::triangles::{Triangles, add_fan, fans};
 use crate::components::Color;
 
-/// Reads the lines `v x y z`, `v x y z r g b` and `f a b c …`; the rest is left out.
+/// Reads the lines `v x y z`, `v x y z r g b`, `vn x y z`, `vt u v` and `f a/t/n b/t/n c/t/n …`; the rest is left out.
 pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
     let mut triangles = Triangles::default();
     let mut polygons = 0;
-    let mut polygon = Vec::new();
     for (at, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
         let line = String::from_utf8_lossy(line);
         let mut words = line.split_whitespace();
         let wrong = |what: &str| format!("line {} is {what}; fetch the file again", at + 1);
-        match words.next() {
+        let kind = words.next();
+        if kind == Some("f") {
+            polygons += usize::from(add_polygon(&mut triangles, words).map_err(wrong)? > 3);
+            continue;
+        }
+        let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
+        match kind {
             Some("v") => {
-                let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
                 let three = number().zip(number()).zip(number());
                 let ((x, y), z) = three.ok_or_else(|| wrong("no vertex of three numbers"))?;
                 triangles.vertices.push(DVec3::new(x, y, z));
                 let color = number().zip(number()).zip(number());
                 triangles.colors.extend(color.map(|((r, g), b)| color_of([r, g, b])));
             }
-            Some("f") => {
-                polygon.clear();
-                for word in words {
-                    let index = index(word, triangles.vertices.len());
-                    polygon.push(index.ok_or_else(|| wrong("no face of vertices before it"))?);
-                }
-                if polygon.len() < 3 {
-                    return Err(wrong("a face of fewer than 3 vertices"));
-                }
-                polygons += usize::from(polygon.len() > 3);
-                add_fan(&mut triangles.faces, &polygon);
+            Some("vn") => {
+                let three = number().zip(number()).zip(number());
+                let ((x, y), z) = three.ok_or_else(|| wrong("no normal of three numbers"))?;
+                triangles.normals.values.push(DVec3::new(x, y, z));
+            }
+            Some("vt") => {
+                let u = number().ok_or_else(|| wrong("no place in a texture"))?;
+                // Of these files v runs up.
+                let v = 1.0 - number().unwrap_or(0.0);
+                triangles.places.values.push(DVec2::new(u, v));
             }
             _ => {}
         }
     }
     triangles.warnings.extend(fans(polygons));
+    triangles.normals.tidy();
+    triangles.places.tidy();
     Ok(triangles)
+}
+
+/// Adds the triangles of a polygon, whose corners are the words, and how many corners it has; the error is what is wrong.
+fn add_polygon<'w>(
+    triangles: &mut Triangles,
+    words: impl Iterator<Item = &'w str>,
+) -> Result<usize, &'static str> {
+    let (mut vertices, mut places, mut normals) = (Vec::new(), Vec::new(), Vec::new());
+    for word in words {
+        let mut parts = word.split('/');
+        let vertex = index(parts.next(), triangles.vertices.len());
+        vertices.push(vertex.ok_or("no face of vertices before it")?);
+        // What is not there, or not yet, is stated nowhere.
+        places.push(index(parts.next(), triangles.places.values.len()).unwrap_or(u32::MAX));
+        normals.push(index(parts.next(), triangles.normals.values.len()).unwrap_or(u32::MAX));
+    }
+    if vertices.len() < 3 {
+        return Err("a face of fewer than 3 vertices");
+    }
+    add_fan(&mut triangles.faces, &vertices);
+    add_fan(&mut triangles.places.faces, &places);
+    add_fan(&mut triangles.normals.faces, &normals);
+    Ok(vertices.len())
 }
 
 /// The color of sRGB channels that are 0..=1.
@@ -49,9 +77,9 @@ fn color_of(channels: [f64; 3]) -> Color {
     Color::from_srgb(channels.map(|channel| (channel as f32).clamp(0.0, 1.0)))
 }
 
-/// The vertex of `7`, `7/1` or `7//2`, counted from 1, or of `-1`, counted back from the last.
-fn index(word: &str, count: usize) -> Option<u32> {
-    let number: i64 = word.split('/').next()?.parse().ok()?;
+/// A number counted from 1 to `count`, or counted back from the last by one below 0, as an index.
+fn index(word: Option<&str>, count: usize) -> Option<u32> {
+    let number: i64 = word?.parse().ok()?;
     let index = if number < 0 { count as i64 + number } else { number - 1 };
     u32::try_from(index).ok().filter(|&index| (index as usize) < count)
 }

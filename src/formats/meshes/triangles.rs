@@ -2,10 +2,36 @@
 
 use std::path::PathBuf;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::super::stream::room;
 use crate::components::{Color, Space};
+
+/// What a file states at the corners of its triangles, such as normals; empty where it states none.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AtCorners<T> {
+    /// The values, in the file's order.
+    pub values: Vec<T>,
+    /// Three indices into `values` for each triangle, beyond them where it states none; without any, those of its vertices.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl<T: Copy> AtCorners<T> {
+    /// What is stated at the corners of triangle number `at`, whose vertices are `face`; `None` where one lacks it.
+    #[must_use]
+    pub(crate) fn of(&self, at: usize, face: [u32; 3]) -> Option<[T; 3]> {
+        let own = self.faces.get(at).copied().unwrap_or(face);
+        let [a, b, c] = own.map(|index| self.values.get(index as usize).copied());
+        Some([a?, b?, c?])
+    }
+
+    /// Leaves out which triangles have which values where there are no values.
+    pub(crate) fn tidy(&mut self) {
+        if self.values.is_empty() {
+            self.faces = Vec::new();
+        }
+    }
+}
 
 /// Triangles of a file, in its own coordinates.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -16,6 +42,10 @@ pub struct Triangles {
     pub colors: Vec<Color>,
     /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
     pub faces: Vec<[u32; 3]>,
+    /// Normals at their corners, of any length.
+    pub normals: AtCorners<DVec3>,
+    /// Where their corners lie in a texture: (0, 0) is its top left corner and (1, 1) its bottom right one.
+    pub places: AtCorners<DVec2>,
     /// Which way its axes run, where its format says so.
     pub space: Option<Space>,
     /// World units (mm) in one of its units, where its format says so.

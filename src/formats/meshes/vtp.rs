@@ -1,8 +1,10 @@
-//! VTK PolyData (`.vtp`): points, polygons and strips of one or several pieces, and colors of points if they are their scalars.
+//! VTK PolyData (`.vtp`): points, polygons and strips of one or several pieces, and of points their normals, their
+//! places in a texture, and colors if these are their scalars.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::triangles::{Triangles, add_fan, add_strip, fans, reserve};
 use crate::components::Color;
@@ -45,7 +47,7 @@ fn add_piece(triangles: &mut Triangles, piece: &Piece) -> Result<usize, String> 
     }
     reserve(&mut triangles.vertices, count)?;
     triangles.vertices.extend(points.chunks_exact(3).map(|p| DVec3::new(p[0], p[1], p[2])));
-    triangles.colors.extend(piece.colors(count)?);
+    add_attributes(triangles, piece, (first, count))?;
     let mut split = 0;
     for corners in piece.cells("Polys", "NumberOfPolys")? {
         let corners = corners_of(&corners, first, count)?;
@@ -108,24 +110,61 @@ impl Piece<'_> {
         Ok(starts.zip(&ends).map(cell).collect())
     }
 
+    /// The array that the piece names for a use, such as `Normals`, and how many numbers each point has of it.
+    fn named_for(&self, what: &str) -> Option<(Tag<'_>, usize)> {
+        let name = tag(self.bytes, "PointData")?.attribute(what)?;
+        let array = named(self.inside("PointData").unwrap_or_default(), &name)?;
+        let width = array.attribute("NumberOfComponents")?.parse().ok()?;
+        Some((array, width))
+    }
+
+    /// The numbers of the points' array for a use, and how many each point has, if these are enough.
+    fn attribute(
+        &self,
+        what: &str,
+        widths: RangeInclusive<usize>,
+        count: usize,
+    ) -> Result<Option<(Vec<f64>, usize)>, String> {
+        let named = self.named_for(what).filter(|(_, width)| widths.contains(width));
+        let Some((array, width)) = named else { return Ok(None) };
+        Ok(Some((self.numbers(Some(array), count.checked_mul(width))?, width)))
+    }
+
     /// The colors of the points, where the scalars that the piece names are three or four bytes each.
     fn colors(&self, count: usize) -> Result<Vec<Color>, String> {
-        let Some(points) = tag(self.bytes, "PointData") else { return Ok(Vec::new()) };
-        let scalars = points.attribute("Scalars");
-        let inside = self.inside("PointData").unwrap_or_default();
-        let array = scalars.and_then(|name| named(inside, &name));
-        let array = array.filter(|array| array.attribute("type").as_deref() == Some("UInt8"));
-        let Some(array) = array else { return Ok(Vec::new()) };
-        let width = match array.attribute("NumberOfComponents").as_deref() {
-            Some("3") => 3,
-            Some("4") => 4,
-            _ => return Ok(Vec::new()),
+        let are_bytes =
+            |(array, _): &(Tag, usize)| array.attribute("type").as_deref() == Some("UInt8");
+        if !self.named_for("Scalars").is_some_and(|named| are_bytes(&named)) {
+            return Ok(Vec::new());
+        }
+        let Some((bytes, width)) = self.attribute("Scalars", 3..=4, count)? else {
+            return Ok(Vec::new());
         };
-        let bytes = self.numbers(Some(array), count.checked_mul(width))?;
         let channel = |byte: f64| byte as f32 / 255.0;
         let color = |c: &[f64]| Color::from_srgb([c[0], c[1], c[2]].map(channel));
         Ok(bytes.chunks_exact(width).map(color).collect())
     }
+}
+
+/// Adds colors, normals and places in a texture of a piece's points, of which `first` are before them in the file.
+fn add_attributes(
+    triangles: &mut Triangles,
+    piece: &Piece,
+    (first, count): (usize, usize),
+) -> Result<(), String> {
+    triangles.colors.extend(piece.colors(count)?);
+    if let Some((normals, _)) = piece.attribute("Normals", 3..=3, count)? {
+        triangles.normals.values.resize(first, DVec3::NAN);
+        let normal = |n: &[f64]| DVec3::new(n[0], n[1], n[2]);
+        triangles.normals.values.extend(normals.chunks_exact(3).map(normal));
+    }
+    if let Some((places, width)) = piece.attribute("TCoords", 2..=3, count)? {
+        triangles.places.values.resize(first, DVec2::NAN);
+        // Of VTK's textures v runs up.
+        let place = |uv: &[f64]| DVec2::new(uv[0], 1.0 - uv[1]);
+        triangles.places.values.extend(places.chunks_exact(width).map(place));
+    }
+    Ok(())
 }
 
 /// The array of that name.

@@ -14,8 +14,10 @@ const SLIGHT: f64 = 1e-6;
 /// Where world points of a face's plane lie in its texture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mapping {
-    /// The world point at (0, 0) of the texture: its top left corner.
+    /// A world point.
     origin: DVec3,
+    /// Its (u, v): (0, 0) is the texture's top left corner.
+    start: DVec2,
     /// How fast u grows in the world, in textures per world unit.
     u: DVec3,
     /// How fast v, which runs down, grows in the world.
@@ -58,14 +60,34 @@ impl Mapping {
                 "the texture's corners {origin}, {right} and {below} are too close together to divide by; state `corners` further apart"
             ));
         }
-        Ok(Self { origin, u, v, normal: face.normal })
+        Ok(Self { origin, start: DVec2::ZERO, u, v, normal: face.normal })
     }
 
-    /// The texture's (u, v) at a world point: (0, 0) at the top left corner, `repeats` at the bottom right one.
+    /// The mapping that has the corners of a triangle at `places` in the texture, times `repeats`.
+    ///
+    /// Places may be on one line or at one point: the triangle then has the texels there. `None` of a face that is no
+    /// triangle, and of places or repeats that are no numbers.
+    #[must_use]
+    pub fn of_places(face: &Face, places: [DVec2; 3], repeats: [f64; 2]) -> Option<Self> {
+        let [origin, right, below] = face.triangle()?;
+        let [start, across, down] = places.map(|place| place * DVec2::from(repeats));
+        let (b, c) = (right - origin, below - origin);
+        let upright = b.cross(c);
+        // A function that grows by `more_b` along b and by `more_c` along c, and not along the normal.
+        let growth = |more_b: f64, more_c: f64| {
+            (c.cross(upright) * more_b + upright.cross(b) * more_c) / upright.length_squared()
+        };
+        let (across, down) = (across - start, down - start);
+        let (u, v) = (growth(across.x, down.x), growth(across.y, down.y));
+        let finite = start.is_finite() && u.is_finite() && v.is_finite();
+        finite.then_some(Self { origin, start, u, v, normal: face.normal })
+    }
+
+    /// The texture's (u, v) at a world point: (0, 0) at the top left corner, and `repeats` at the stated bottom right one.
     #[must_use]
     pub fn at(&self, world: DVec3) -> DVec2 {
         let from = world - self.origin;
-        DVec2::new(self.u.dot(from), self.v.dot(from))
+        self.start + DVec2::new(self.u.dot(from), self.v.dot(from))
     }
 
     /// What a square of side `region_pixels` of the picture covers in the texture, carried along `ray` to its depth `depth`.
@@ -169,6 +191,25 @@ mod tests {
         let sides = mapping.footprint(&camera, (&camera.ray(DVec2::ZERO), 0.0), 1.0).sides();
         assert!(sides.is_finite());
         assert!(sides.x_axis.length().max(sides.y_axis.length()) > 1e3);
+    }
+
+    #[test]
+    fn the_corners_of_a_triangle_lie_in_the_texture_where_they_say() {
+        let corners = [[1.0, 2.0, 3.0], [4.0, 2.0, 5.0], [0.0, 7.0, 1.0]].map(DVec3::from);
+        let triangle = Face::new(vec![corners.to_vec()]).unwrap();
+        let line = [DVec2::ZERO, DVec2::ONE, DVec2::splat(3.0)];
+        for places in
+            [[[0.25, 0.5], [0.75, 0.125], [3.5, -2.0]].map(DVec2::from), line, [DVec2::ONE; 3]]
+        {
+            let mapping = Mapping::of_places(&triangle, places, [2.0, 3.0]).unwrap();
+            for (corner, place) in corners.into_iter().zip(places) {
+                let expected = place * DVec2::new(2.0, 3.0);
+                assert!(mapping.at(corner).abs_diff_eq(expected, 1e-12));
+                assert!(mapping.at(corner + triangle.normal).abs_diff_eq(expected, 1e-12));
+            }
+        }
+        assert_eq!(Mapping::of_places(&triangle, [DVec2::NAN; 3], [1.0; 2]), None);
+        assert_eq!(Mapping::of_places(&face(), line, [1.0; 2]), None);
     }
 
     #[test]

@@ -11,6 +11,8 @@ use glam::{DVec2, DVec3, Vec4};
 use hecs::World;
 
 use crate::components::{TextureFilter, Textured, Wrap};
+use crate::polygon::face::Face;
+use crate::shared::Shared;
 use crate::view::picture::Picture;
 
 mod area;
@@ -121,8 +123,38 @@ pub struct TexturedBy {
     pub textured: Textured,
     /// The texture, ready for lookups.
     pub texture: MappedTexture,
-    /// World points of the texture's top left, top right and bottom left corners; never on one line.
-    pub corners: [DVec3; 3],
+    /// Where it lies.
+    pub lies: Lies,
+}
+
+/// Where a texture lies on the faces of an entity.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Lies {
+    /// On all of them alike: the world points of its top left, top right and bottom left corners, never on one line.
+    Corners([DVec3; 3]),
+    /// On each where the mesh says.
+    Places(TexturePlaces),
+}
+
+/// For each face of an entity where its three corners lie in a texture: (0, 0) is its top left corner and (1, 1) its bottom
+/// right one; no numbers for a face that lies nowhere in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TexturePlaces(pub(crate) Shared<[DVec2; 3]>);
+
+impl TexturedBy {
+    /// Where points of `face`, which has that number, lie in the texture; `None` where it shows none of it.
+    #[must_use]
+    pub fn mapping(&self, at: usize, face: &Face) -> Option<Mapping> {
+        match &self.lies {
+            Lies::Corners(corners) => {
+                let corners = Some(corners.map(|corner| corner.to_array()));
+                Mapping::new(face, &Textured { corners, ..self.textured.clone() }).ok()
+            }
+            Lies::Places(places) => {
+                Mapping::of_places(face, *places.0.get(at)?, self.textured.repeats)
+            }
+        }
+    }
 }
 
 #[cfg(test)]

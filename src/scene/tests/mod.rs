@@ -11,7 +11,7 @@ use crate::components::{
 };
 use crate::light::strength::ProjectedBy;
 use crate::polygon::face::Faces;
-use crate::polygon::texture::TexturedBy;
+use crate::polygon::texture::{Lies, TexturedBy};
 use crate::view::extent::Extent;
 use crate::volume::grid::{Grid, Painted, Scalars};
 
@@ -182,8 +182,8 @@ fn textures_reach_the_polygons_and_lights_that_name_them() {
         "{BALL}{PLANE}textured = {{ texture = \"slide\" }}\n[[entity]]\nname = \"slide\"\ntexture = {{ formula = \"grid\" }}\n[[entity]]\nname = \"key\"\nlight = {{ toward = [0, 0, 1] }}\ncasts_shadow = {{}}\nprojects = {{ texture = \"checker\", size_mm = [10, 10] }}\n"
     );
     let world = loaded(&text, &[]).unwrap().world;
-    let TexturedBy { corners, .. } = only(&world);
-    assert_eq!(corners, [glam::DVec3::ZERO, glam::DVec3::X, glam::DVec3::Y]);
+    let TexturedBy { lies, .. } = only(&world);
+    assert_eq!(lies, Lies::Corners([glam::DVec3::ZERO, glam::DVec3::X, glam::DVec3::Y]));
     assert!(only::<ProjectedBy>(&world).picture.size[0] > 0);
     assert_eq!(only::<CastsShadow>(&world), CastsShadow::default());
     let sentence = refused(&text.replace("texture = \"slide\"", "texture = \"slid\""));

@@ -1,6 +1,7 @@
 //! glTF 2.0 (`.gltf` with its buffers beside it or in it, `.glb`): the triangles of a scene's nodes, in meters and with y up.
 
 mod accessor;
+mod attributes;
 mod buffers;
 mod document;
 mod place;
@@ -10,8 +11,9 @@ use std::path::Path;
 use glam::DMat4;
 
 use super::triangles::{Triangles, add_fan, add_strip, reserve};
-use crate::components::{Color, Space};
+use crate::components::Space;
 use accessor::{floats, indices};
+use attributes::Vertices;
 use buffers::Buffers;
 use document::{Document, Primitive};
 
@@ -59,7 +61,7 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     if document.images.as_ref().is_some_and(|images| !images.is_empty()) {
         triangles
             .warnings
-            .push("its textures are not read; the factors of its materials color it".to_owned());
+            .push("its textures are not read, and the factors of its materials color it; name a picture of it as a `texture` and state `textured`".to_owned());
     }
     Ok(triangles)
 }
@@ -102,7 +104,10 @@ fn add(
     let point =
         |three: &[f64]| matrix.transform_point3(glam::DVec3::new(three[0], three[1], three[2]));
     triangles.vertices.extend(points.values.chunks_exact(3).map(point));
-    let colored = color(triangles, document, buffers, (primitive, count))?;
+    let vertices = Vertices { document, buffers, primitive, matrix, first, count };
+    let colored = vertices.color(&mut triangles.colors)?;
+    vertices.bend(&mut triangles.normals.values)?;
+    vertices.lay(&mut triangles.places.values)?;
     let corners: Vec<u32> = match primitive.indices {
         Some(accessor) => indices(document, buffers, accessor)?,
         None => (0..count as u32).collect(),
@@ -131,31 +136,4 @@ fn faces(corners: &[u32], mode: u32) -> Vec<[u32; 3]> {
         _ => add_fan(&mut faces, corners),
     }
     faces
-}
-
-/// Adds the colors of a primitive's vertices, linear: its own times its material's factor; white where it states none.
-fn color(
-    triangles: &mut Triangles,
-    document: &Document,
-    buffers: &Buffers,
-    (primitive, count): (&Primitive, usize),
-) -> Result<bool, String> {
-    let material = primitive.material.and_then(|at| document.materials.as_ref()?.get(at));
-    let factor = material.and_then(|material| material.pbr.as_ref()?.base_color);
-    let tint = factor.unwrap_or([1.0; 4]);
-    let of = |channels: &[f64]| {
-        let channel = |at: usize| (channels[at] as f32 * tint[at]).clamp(0.0, 1.0);
-        Color([0, 1, 2].map(channel).into())
-    };
-    reserve(&mut triangles.colors, count)?;
-    let Some(&accessor) = primitive.attributes.get("COLOR_0") else {
-        triangles.colors.extend(std::iter::repeat_n(of(&[1.0; 3]), count));
-        return Ok(factor.is_some());
-    };
-    let own = floats(document, buffers, accessor)?;
-    if !matches!(own.width, 3 | 4) || own.values.len() != own.width * count {
-        return Err("has colors that are not those of its vertices; export it again".to_owned());
-    }
-    triangles.colors.extend(own.values.chunks_exact(own.width).map(of));
-    Ok(true)
 }

@@ -1,5 +1,6 @@
 //! Facts about meshes: the same tetrahedron in every format, and files that are not what they say.
 
+mod corners;
 mod sound;
 
 use glam::DVec3;

@@ -1,77 +1,19 @@
-//! VTK's older files (`.vtk`) of PolyData, text or binary, to version 5.1: their points, polygons and strips.
+//! A legacy VTK file from where it is read on: words, and numbers as text or bytes.
 
-use std::path::Path;
-
-use glam::DVec3;
-
-use super::triangles::{Triangles, add_fan, add_strip, fans, reserve};
 use crate::formats::nrrd::words::Words;
 use crate::formats::number::{self, Binary, NumberType, Order};
 use crate::formats::stream::Stream;
 
-/// Reads the points and what joins them; what is said of points and cells after that is left out.
-pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
-    let mut lines = bytes.splitn(4, |&byte| byte == b'\n');
-    if !lines.next().is_some_and(|line| line.starts_with(b"# vtk DataFile")) {
-        return Err(
-            "does not begin with `# vtk DataFile`; check that it is what its name says".to_owned()
-        );
-    }
-    let text = match lines.nth(1).map(<[u8]>::trim_ascii) {
-        Some(b"ASCII") => true,
-        Some(b"BINARY") => false,
-        _ => return Err("its third line is neither ASCII nor BINARY; save it again".to_owned()),
-    };
-    let mut file = Legacy { bytes: lines.next().unwrap_or_default(), text };
-    if file.word() != "DATASET" || file.word() != "POLYDATA" {
-        return Err("is no PolyData; save its surface as one".to_owned());
-    }
-    let mut triangles = Triangles::default();
-    let mut split = 0;
-    loop {
-        match file.word().as_str() {
-            "POINTS" => add_points(&mut triangles, &mut file)?,
-            "POLYGONS" => {
-                for corners in file.cells()? {
-                    split += usize::from(corners.len() > 3);
-                    add_fan(&mut triangles.faces, &corners);
-                }
-            }
-            "TRIANGLE_STRIPS" => {
-                file.cells()?.iter().for_each(|corners| add_strip(&mut triangles.faces, corners));
-            }
-            "VERTICES" | "LINES" => drop(file.cells()?),
-            "METADATA" => file.skip_paragraph(),
-            "" | "POINT_DATA" | "CELL_DATA" => break,
-            other => {
-                return Err(format!(
-                    "has `{other}` where points or polygons are expected; save it again"
-                ));
-            }
-        }
-    }
-    triangles.warnings.extend(fans(split));
-    Ok(triangles)
-}
-
-fn add_points(triangles: &mut Triangles, file: &mut Legacy) -> Result<(), String> {
-    let count = file.count()?;
-    let kind = NumberType::named(&file.word())?;
-    let points = file.numbers(kind, count.checked_mul(3).ok_or_else(truncated)?)?;
-    reserve(&mut triangles.vertices, count)?;
-    triangles.vertices.extend(points.chunks_exact(3).map(|p| DVec3::new(p[0], p[1], p[2])));
-    Ok(())
-}
-
 /// A file from where it is read on.
-struct Legacy<'b> {
-    bytes: &'b [u8],
-    text: bool,
+pub(super) struct Legacy<'b> {
+    pub bytes: &'b [u8],
+    /// Whether its numbers are words, and not bytes.
+    pub text: bool,
 }
 
 impl Legacy<'_> {
     /// The next word of a line of text; none at the end.
-    fn word(&mut self) -> String {
+    pub fn word(&mut self) -> String {
         let rest = self.bytes.trim_ascii_start();
         let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         // A number of bytes that are no text is cut short in any case.
@@ -80,13 +22,14 @@ impl Legacy<'_> {
         word
     }
 
-    fn count(&mut self) -> Result<usize, String> {
+    /// The next word as a whole number.
+    pub fn count(&mut self) -> Result<usize, String> {
         let word = self.word();
         word.parse().map_err(|_| format!("has `{word}` where a number is expected; save it again"))
     }
 
     /// So many numbers: words, or bytes from the next line on, the highest first.
-    fn numbers(&mut self, kind: NumberType, count: usize) -> Result<Vec<f64>, String> {
+    pub fn numbers(&mut self, kind: NumberType, count: usize) -> Result<Vec<f64>, String> {
         if self.text {
             return self.words(kind, count);
         }
@@ -119,19 +62,19 @@ impl Legacy<'_> {
     }
 
     /// The points of each cell: each after its length, or from version 5 on all in a row after where each ends.
-    fn cells(&mut self) -> Result<Vec<Vec<u32>>, String> {
+    pub fn cells(&mut self) -> Result<Vec<Vec<u32>>, String> {
         let (first, second) = (self.count()?, self.count()?);
         let before = self.bytes;
         if self.word() != "OFFSETS" {
             self.bytes = before;
             return counted(&self.numbers(NumberType::I32, second)?);
         }
-        let kind = self.index_type()?;
+        let kind = self.number_type()?;
         let ends = self.numbers(kind, first)?;
         if self.word() != "CONNECTIVITY" {
             return Err("has offsets without `CONNECTIVITY`; save it again".to_owned());
         }
-        let kind = self.index_type()?;
+        let kind = self.number_type()?;
         let corners = self.numbers(kind, second)?;
         let cell = |pair: &[f64]| {
             let own = corners.get(pair[0].max(0.0) as usize..pair[1].max(0.0) as usize);
@@ -140,15 +83,29 @@ impl Legacy<'_> {
         ends.windows(2).map(cell).collect()
     }
 
-    fn index_type(&mut self) -> Result<NumberType, String> {
+    /// The next word as a type of numbers, under VTK's names too.
+    pub fn number_type(&mut self) -> Result<NumberType, String> {
         match self.word().as_str() {
-            "vtktypeint64" => Ok(NumberType::I64),
-            other => NumberType::named(other),
+            "vtktypeint64" | "long" => Ok(NumberType::I64),
+            // So it is written however wide it is in memory.
+            "vtkIdType" => Ok(NumberType::I32),
+            "unsigned_long" => Ok(NumberType::U64),
+            other => NumberType::named(&other.replace("unsigned_", "unsigned ")),
         }
     }
 
+    /// The next word, if it is a whole number; else it stays.
+    pub fn count_if_any(&mut self) -> Option<usize> {
+        let before = self.bytes;
+        let count = self.word().parse().ok();
+        if count.is_none() {
+            self.bytes = before;
+        }
+        count
+    }
+
     /// Goes on after the next blank line.
-    fn skip_paragraph(&mut self) {
+    pub fn skip_paragraph(&mut self) {
         let end = self.bytes.windows(2).position(|two| two == b"\n\n");
         self.bytes = &self.bytes[end.map_or(self.bytes.len(), |end| end + 2)..];
     }
@@ -171,6 +128,7 @@ fn indices(numbers: &[f64]) -> Result<Vec<u32>, String> {
     numbers.iter().map(index).collect::<Option<_>>().ok_or_else(truncated)
 }
 
-fn truncated() -> String {
+/// What a file is that ends too early.
+pub(super) fn truncated() -> String {
     "is truncated or damaged: it holds fewer numbers than it says; fetch the file again".to_owned()
 }

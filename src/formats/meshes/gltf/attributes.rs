@@ -1,0 +1,73 @@
+//! What the vertices of a primitive have beside their positions: colors, normals, and places in a texture.
+
+use glam::{DMat3, DMat4, DVec2, DVec3};
+
+use super::super::triangles::reserve;
+use super::accessor::{Numbers, floats};
+use super::buffers::Buffers;
+use super::document::{Document, Primitive};
+use crate::components::Color;
+
+/// The vertices of a primitive, placed by a matrix, of which `first` in the file were there before.
+pub(super) struct Vertices<'a> {
+    pub document: &'a Document,
+    pub buffers: &'a Buffers<'a>,
+    pub primitive: &'a Primitive,
+    pub matrix: DMat4,
+    pub first: usize,
+    pub count: usize,
+}
+
+impl Vertices<'_> {
+    /// The numbers of an attribute, of one of these widths a vertex; `what` it is for a sentence.
+    fn numbers(&self, name: &str, widths: &[usize], what: &str) -> Result<Option<Numbers>, String> {
+        let Some(&accessor) = self.primitive.attributes.get(name) else { return Ok(None) };
+        let own = floats(self.document, self.buffers, accessor)?;
+        if !widths.contains(&own.width) || own.values.len() != own.width * self.count {
+            return Err(format!("has {what} that are not those of its vertices; export it again"));
+        }
+        Ok(Some(own))
+    }
+
+    /// Adds their colors, linear: their own times their material's factor; white where neither is stated, which is told.
+    pub fn color(&self, colors: &mut Vec<Color>) -> Result<bool, String> {
+        let materials = self.document.materials.as_ref();
+        let material = self.primitive.material.and_then(|at| materials?.get(at));
+        let factor = material.and_then(|material| material.pbr.as_ref()?.base_color);
+        let tint = factor.unwrap_or([1.0; 4]);
+        let of = |channels: &[f64]| {
+            let channel = |at: usize| (channels[at] as f32 * tint[at]).clamp(0.0, 1.0);
+            Color([0, 1, 2].map(channel).into())
+        };
+        reserve(colors, self.count)?;
+        let own = self.numbers("COLOR_0", &[3, 4], "colors")?;
+        match &own {
+            Some(own) => colors.extend(own.values.chunks_exact(own.width).map(of)),
+            None => colors.extend(std::iter::repeat_n(of(&[1.0; 3]), self.count)),
+        }
+        Ok(own.is_some() || factor.is_some())
+    }
+
+    /// Adds their normals, if they have any; those of vertices before them that have none are no numbers.
+    pub fn bend(&self, normals: &mut Vec<DVec3>) -> Result<(), String> {
+        let Some(own) = self.numbers("NORMAL", &[3], "normals")? else { return Ok(()) };
+        // Normals stand on what is stretched as they do on planes.
+        let turned = DMat3::from_mat4(self.matrix).inverse().transpose();
+        reserve(normals, self.first + self.count - normals.len())?;
+        normals.resize(self.first, DVec3::NAN);
+        let normal = |n: &[f64]| turned * DVec3::new(n[0], n[1], n[2]);
+        normals.extend(own.values.chunks_exact(3).map(normal));
+        Ok(())
+    }
+
+    /// Adds where they lie in a texture, as [`bend`](Self::bend) adds normals.
+    pub fn lay(&self, places: &mut Vec<DVec2>) -> Result<(), String> {
+        let Some(own) = self.numbers("TEXCOORD_0", &[2], "places in a texture")? else {
+            return Ok(());
+        };
+        reserve(places, self.first + self.count - places.len())?;
+        places.resize(self.first, DVec2::NAN);
+        places.extend(own.values.chunks_exact(2).map(|uv| DVec2::new(uv[0], uv[1])));
+        Ok(())
+    }
+}
