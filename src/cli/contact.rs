@@ -18,15 +18,17 @@ pub fn open(argument: Option<&OsStr>, flags: &Flags) -> Result<Source, Failure> 
         refuse(flags)?;
         return Ok(Source::open(argument)?);
     }
-    if mesh_format(path).is_some() && (flags.iso.is_some() || flags.preset.is_some()) {
-        return Err(Failure::Misused(
-            "--iso and --preset are for volumes, and a mesh has its surface already; leave them away".to_owned(),
-        ));
+    if let Some(flag) = flags.for_volumes().filter(|_| mesh_format(path).is_some()) {
+        return Err(Failure::Misused(format!(
+            "{flag} is for volumes, and a mesh has its surface already; leave it away"
+        )));
     }
     let wish = Wish {
         iso: flags.iso,
         preset: flags.preset,
         size: flags.size,
+        channel: flags.channel,
+        time: flags.time,
         most_bytes: flags.max_memory,
     };
     let (source, said) = first_contact(path, &wish)?;
@@ -47,17 +49,16 @@ fn is_without_scene(path: &Path) -> bool {
 
 /// Refuses flags that make a scene where there is one.
 fn refuse(flags: &Flags) -> Result<(), Failure> {
-    let given = [
-        ("--iso", flags.iso.is_some()),
-        ("--preset", flags.preset.is_some()),
-        ("--save-scene", flags.save_scene.is_some()),
-    ];
-    match given.iter().find(|(_, given)| *given) {
-        Some((flag, _)) => Err(Failure::Misused(format!(
-            "{flag} is for a volume that is named in place of a scene; change a scene with --set ENTITY.classify.KEY=VALUE"
-        ))),
-        None => Ok(()),
-    }
+    let saved = flags.save_scene.as_ref().map(|_| "--save-scene");
+    let Some(flag) = flags.for_volumes().or(saved) else { return Ok(()) };
+    let key = match flag {
+        "--channel" => "volume.channel=1",
+        "--time" => "volume.time=1",
+        _ => "classify.KEY=VALUE",
+    };
+    Err(Failure::Misused(format!(
+        "{flag} is for a volume that is named in place of a scene; change a scene with --set ENTITY.{key}"
+    )))
 }
 
 /// The scene that was made, with the paths in it as they lead there from the folder of the file that is to hold it.

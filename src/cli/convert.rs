@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use gelray::formats::whole::check_writable;
-use gelray::formats::{Stated, write_volume};
+use gelray::formats::write_volume;
 
 use super::failure::{Failure, tell};
 use super::flags::Flags;
@@ -12,7 +12,7 @@ use super::info::{find, within};
 use super::same_file::same_file;
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] = &[];
+pub const TAKES: &[&str] = &["--channel", "--time"];
 
 /// Reads the volume `from` and writes it to `to`, whole or not at all.
 pub fn run(from: &OsStr, to: &Path, flags: &Flags) -> Result<(), Failure> {
@@ -31,7 +31,7 @@ pub fn run(from: &OsStr, to: &Path, flags: &Flags) -> Result<(), Failure> {
         )));
     }
     check_writable(to)?;
-    let loaded = within(&from, &Stated::default(), flags)?;
+    let loaded = within(&from, &flags.stated(), flags)?;
     for warning in loaded.warnings.iter().filter(|_| !flags.quiet) {
         tell(format_args!("warning: {warning}"));
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use gelray::components::Preset;
+use gelray::formats::Stated;
 
 use super::bytes;
 use super::failure::Failure;
@@ -65,6 +66,12 @@ pub struct Flags {
     /// The header that a raw file lacks: 256x256x113,uint16,little[,1x1x2]: voxels, type, byte order, spacing in mm
     #[arg(long, value_name = "HEADER", global = true, value_parser = RawHeader::parse)]
     pub raw: Option<RawHeader>,
+    /// Of a volume of several channels without a scene (Zarr): which is read, 0 the first
+    #[arg(long, value_name = "N", global = true)]
+    pub channel: Option<usize>,
+    /// Of a volume of several times without a scene (Zarr): which is read, 0 the first
+    #[arg(long, value_name = "N", global = true)]
+    pub time: Option<usize>,
     /// Says nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
@@ -74,7 +81,7 @@ pub struct Flags {
 }
 
 /// The flags that not every verb has a use for.
-pub const FOR_SOME: [&str; 14] = [
+pub const FOR_SOME: [&str; 16] = [
     "--output",
     "--size",
     "--set",
@@ -89,6 +96,8 @@ pub const FOR_SOME: [&str; 14] = [
     "--max-memory",
     "--fail-below",
     "--raw",
+    "--channel",
+    "--time",
 ];
 
 impl Flags {
@@ -109,6 +118,8 @@ impl Flags {
             self.max_memory.is_some(),
             !self.fail_below.is_empty(),
             self.raw.is_some(),
+            self.channel.is_some(),
+            self.time.is_some(),
         ];
         let mut flags = FOR_SOME.iter().zip(given);
         match flags.find(|(flag, given)| *given && !takes.contains(flag)) {
@@ -117,6 +128,23 @@ impl Flags {
             ))),
             None => Ok(()),
         }
+    }
+
+    /// What is said of a volume that comes without a scene, as a scene's `volume` would.
+    pub fn stated(&self) -> Stated {
+        let header = self.raw.as_ref().map(|RawHeader(stated)| stated.clone());
+        Stated { channel: self.channel, time: self.time, ..header.unwrap_or_default() }
+    }
+
+    /// The first flag that was given of those for a volume without a scene.
+    pub fn for_volumes(&self) -> Option<&'static str> {
+        let given = [
+            ("--iso", self.iso.is_some()),
+            ("--preset", self.preset.is_some()),
+            ("--channel", self.channel.is_some()),
+            ("--time", self.time.is_some()),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(flag, _)| flag)
     }
 
     /// Every file that is to be written, with the flag that names it.

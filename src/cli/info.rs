@@ -16,7 +16,6 @@ use super::bytes::human;
 use super::failure::{Failure, tell};
 use super::flags::Flags;
 use super::number::number;
-use super::raw_header::RawHeader;
 use super::sentence::DATA;
 use super::table::table;
 use super::{info_mesh, info_picture, memory, outputs};
@@ -28,7 +27,7 @@ const BINS: usize = 24;
 const BAR: f64 = 40.0;
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] = &["--output", "--raw"];
+pub const TAKES: &[&str] = &["--output", "--raw", "--channel", "--time"];
 
 /// Prints what a file (or `phantom:NAME`) holds.
 pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
@@ -36,9 +35,11 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
     let path = find(file, flags);
     outputs::check(flags, &[&path])?;
     if format_of(&path).is_some_and(|format| format.read.is_some()) && !is_volume(&path) {
+        refuse_choices("a picture", flags)?;
         return outputs::print_or_write(&info_picture::words(&path, flags)?, flags);
     }
     if mesh_format(&path).is_some() && path.is_file() {
+        refuse_choices("a mesh", flags)?;
         return outputs::print_or_write(&info_mesh::words(&path, flags.quiet)?, flags);
     }
     let name = file.to_string_lossy();
@@ -49,6 +50,7 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
     }
     let loaded = match phantom_name {
         Some(name) => {
+            refuse_choices("a phantom", flags)?;
             memory::check(most_bytes(name.trim()), flags.max_memory)?;
             phantom(name.trim()).map_err(Failure::Said)?
         }
@@ -60,17 +62,26 @@ pub fn run(file: &OsStr, flags: &Flags) -> Result<(), Failure> {
     outputs::print_or_write(&words(&name, &loaded), flags)
 }
 
+/// Refuses what only a volume of a file has a use for.
+fn refuse_choices(what: &str, flags: &Flags) -> Result<(), Failure> {
+    match flags.for_volumes() {
+        Some(flag) => Err(Failure::Misused(format!(
+            "{flag} is for volumes of several channels or times, and {what} is none; leave it away"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The volume of a file; that of one without a header with the header that `--raw` states.
 fn read(path: &Path, flags: &Flags) -> Result<Loaded, Failure> {
-    let stated = flags.raw.as_ref().map(|RawHeader(stated)| stated.clone());
     let asked = || {
         let remedy = "state its header, such as --raw 256x256x113,uint16,little";
         Failure::Said(format!("{}: has no header; {remedy}", path.display()))
     };
-    if stated.is_none() && is_headerless(path) && path.is_file() {
+    if flags.raw.is_none() && is_headerless(path) && path.is_file() {
         return Err(asked());
     }
-    within(path, &stated.unwrap_or_default(), flags)
+    within(path, &flags.stated(), flags)
 }
 
 /// The volume of a file, if it is not more than memory may hold.

@@ -20,8 +20,17 @@ use super::table::table;
 use super::{contact, outputs, render, stats};
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] =
-    &["--output", "--size", "--set", "--iso", "--preset", "--exact", "--max-memory"];
+pub const TAKES: &[&str] = &[
+    "--output",
+    "--size",
+    "--set",
+    "--iso",
+    "--preset",
+    "--channel",
+    "--time",
+    "--exact",
+    "--max-memory",
+];
 
 /// Prints the plan of a scene.
 pub fn run(scene: Option<&OsStr>, flags: &Flags) -> Result<(), Failure> {

@@ -30,8 +30,17 @@ A run is whole: from the scene's file to the bytes of the picture's, with nothin
 hold for all rows together in 19 of 20 cases.";
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] =
-    &["--output", "--size", "--set", "--iso", "--preset", "--exact", "--max-memory"];
+pub const TAKES: &[&str] = &[
+    "--output",
+    "--size",
+    "--set",
+    "--iso",
+    "--preset",
+    "--channel",
+    "--time",
+    "--exact",
+    "--max-memory",
+];
 
 /// Runs of each where nothing is stated: of one scene, and of two that are compared.
 const REPEAT: [u32; 2] = [5, 20];

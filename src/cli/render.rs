@@ -49,6 +49,8 @@ pub const TAKES: &[&str] = &[
     "--set",
     "--iso",
     "--preset",
+    "--channel",
+    "--time",
     "--save-scene",
     "--exact",
     "--stats",

@@ -24,7 +24,8 @@ Examples:
   gelray trade scene.toml -o trade --resume          goes on where it was stopped";
 
 /// Flags that have a use here.
-pub const TAKES: &[&str] = &["--output", "--size", "--set", "--iso", "--preset", "--max-memory"];
+pub const TAKES: &[&str] =
+    &["--output", "--size", "--set", "--iso", "--preset", "--channel", "--time", "--max-memory"];
 
 /// What `trade` takes beside the flags of all verbs.
 #[derive(Debug, Args)]

@@ -7,8 +7,8 @@ use hecs::World;
 use super::error::Text;
 use super::kept::Kept;
 use super::parse::Entry;
+use super::source::Ready;
 use crate::error::{Error, SceneError};
-use crate::formats::Loaded;
 use crate::resolve::{Fault, resolve};
 
 /// A scene half-way: its text, what is stated, and what has been read so far.
@@ -25,7 +25,7 @@ pub(super) struct Loading<'t> {
     /// Bytes that what was read takes.
     pub bytes: u64,
     /// A file that was read before the scene was.
-    pub ready: Option<(PathBuf, Loaded)>,
+    pub ready: Option<Ready>,
     /// The most bytes that what is read may take; `None`: as many as there are.
     pub most_bytes: Option<u64>,
     /// What an earlier loading left, and this one leaves for the next.

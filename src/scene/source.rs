@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::nearest::suggestion;
 use crate::error::Error;
 use crate::error::SceneError;
-use crate::formats::{Loaded, is_volume};
+use crate::formats::{Loaded, Stated, is_volume};
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
 pub static EMBEDDED: [(&str, &str); 20] = [
@@ -42,7 +42,15 @@ pub struct Source {
     /// How messages and pictures name the scene: the file as given, or the embedded scene's name.
     pub name: String,
     /// A file that was read already, for its scene to be made: loading takes its voxels.
-    pub(super) ready: Option<(PathBuf, Loaded)>,
+    pub(super) ready: Option<Ready>,
+}
+
+/// The voxels of a file, with what was stated of it when they were read.
+#[derive(Debug, Clone)]
+pub(super) struct Ready {
+    pub path: PathBuf,
+    pub stated: Stated,
+    pub loaded: Loaded,
 }
 
 /// The longest scene that is read, in bytes: half a million polygons.

@@ -132,8 +132,8 @@ fn read_one(
     loading.afford(survey.bytes)?;
     match &loading.ready {
         // What the scene states of the file may have been changed since.
-        Some((known, loaded)) if same(known, &path) && *stated == Stated::default() => {
-            Ok(Some(loaded.clone()))
+        Some(ready) if same(&ready.path, &path) && *stated == ready.stated => {
+            Ok(Some(ready.loaded.clone()))
         }
         _ => read_volume(&path, stated).map(Some),
     }

@@ -3,7 +3,7 @@
 use gelray::formats::{Loaded, Stated, Voxels, read_picture, read_volume};
 use gelray::volume::grid::Scalars;
 
-use super::{Place, small_nrrd};
+use super::{Place, Ran, small_nrrd};
 
 fn place() -> Place {
     let place = Place::new();
@@ -144,6 +144,53 @@ fn a_folder_of_zarr_is_drawn_and_a_channel_of_it_chosen() {
         picture.pixels.iter().filter(|pixel| pixel[0] > 0.05).count()
     };
     assert!(lit("b.png") > 2 * lit("c.png"), "{} {}", lit("b.png"), lit("c.png"));
+}
+
+#[test]
+fn flags_choose_the_channel_and_time_that_are_read_wherever_no_scene_does() {
+    let place = place_of_zarr();
+    let flags = "--channel 1 --size 40x40";
+    place.done(&format!("render cells.zarr -o a.png {flags} --save-scene kept.toml"));
+    assert!(String::from_utf8(place.read("kept.toml")).unwrap().contains("channel = 1"));
+    place.done("render kept.toml -o b.png");
+    place.done("render cells.zarr -o c.png --channel 0 --size 40x40");
+    let pixels = |name| read_picture(&place.path(name)).unwrap().pixels.to_vec();
+    assert!(pixels("a.png") == pixels("b.png") && pixels("a.png") != pixels("c.png"));
+    // Voxels of the highest value.
+    let filled = |ran: &Ran| ran.out.split_whitespace().last().unwrap().to_owned();
+    let ball = place.done("info cells.zarr --channel 0");
+    let cube = place.done("info cells.zarr --channel 1");
+    assert!(!ball.err.contains("channels") && !cube.err.contains("channels"), "{}", cube.err);
+    assert_eq!(filled(&cube), "1000", "{}", cube.out);
+    assert_ne!(filled(&ball), filled(&cube));
+    for (from, to) in [("0", "ball.nrrd"), ("1", "cube.nrrd")] {
+        place.done(&format!("convert cells.zarr {to} -q --channel {from}"));
+    }
+    assert_eq!(filled(&place.done("info cube.nrrd")), filled(&cube));
+    assert_eq!(filled(&place.done("info ball.nrrd")), filled(&ball));
+    // The first, and a word about it, where none is chosen.
+    let ran = place.done("convert cells.zarr first.nrrd");
+    assert!(ran.err.contains("`--channel 1` without a scene"), "{}", ran.err);
+    assert_eq!(place.read("first.nrrd"), place.read("ball.nrrd"));
+    let ran = place.done("convert cells.zarr first.nrrd --time 3 --channel 0");
+    assert!(ran.err.contains("no axis for `time`"), "{}", ran.err);
+    let ran = place.done("info cube.nrrd --channel 1");
+    assert!(ran.err.contains("the stated `channel` is not used"), "{}", ran.err);
+}
+
+#[test]
+fn channels_that_there_are_not_and_what_has_none_are_refused() {
+    let place = place_of_zarr();
+    let said = ["it has 2 channels", "the first of which is 0"];
+    for verb in ["render cells.zarr -o a.png", "info cells.zarr", "convert cells.zarr a.nrrd"] {
+        place.refused(&format!("{verb} --channel 2"), 1, &said);
+        place.refused(&format!("{verb} --time x"), 2, &["--time"]);
+    }
+    place.write("foot.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    place.refused("info foot.obj --channel 1", 2, &["--channel", "a mesh is none"]);
+    place.refused("info phantom:ball --time 1", 2, &["--time", "a phantom is none"]);
+    place.refused("render foot.obj -o a.png --channel 1", 2, &["--channel is for volumes"]);
+    place.refused("render cross.toml -o a.png --time 1", 2, &["--set ENTITY.volume.time=1"]);
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn taken(
         let names =
             if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) };
         said.push(format!(
-            "of its {count} {many}{names} the first is read; state `{key}` for another, 1 to {} (`--set volume.volume.{key}=1`)",
+            "of its {count} {many}{names} the first is read; state `{key}` for another, 1 to {} (`--{key} 1` without a scene)",
             count - 1
         ));
     }

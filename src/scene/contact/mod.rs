@@ -7,7 +7,7 @@ mod mesh;
 use std::fmt::Write;
 use std::path::Path;
 
-use super::source::Source;
+use super::source::{Ready, Source};
 use crate::components::Preset;
 use crate::error::Error;
 use crate::formats::meshes::mesh_format;
@@ -37,8 +37,19 @@ pub struct Wish {
     pub preset: Option<Preset>,
     /// Pixels across and down; default 640 × 640.
     pub size: Option<[u32; 2]>,
+    /// Which channel is read of several, 0 the first; default the first, and that is said.
+    pub channel: Option<usize>,
+    /// Which time is read of several, 0 the first; default the first, and that is said.
+    pub time: Option<usize>,
     /// The most bytes that the voxels may take; `None`: as many as there are.
     pub most_bytes: Option<u64>,
+}
+
+impl Wish {
+    /// What it says of the file.
+    fn stated(&self) -> Stated {
+        Stated { channel: self.channel, time: self.time, ..Stated::default() }
+    }
 }
 
 /// How a volume is drawn.
@@ -58,20 +69,21 @@ pub fn first_contact(path: &Path, wish: &Wish) -> Result<(Source, String), Error
     if mesh_format(path).is_some() {
         return Ok(mesh::scene(path, wish.size.unwrap_or(SIZE)));
     }
-    let found = survey(path, &Stated::default())?;
+    let stated = wish.stated();
+    let found = survey(path, &stated)?;
     match wish.most_bytes {
         Some(allowed) if found.bytes > allowed => {
             return Err(Error::Memory { needed: found.bytes, allowed });
         }
         _ => {}
     }
-    let loaded = read_volume(path, &Stated::default())?;
+    let loaded = read_volume(path, &stated)?;
     let look = look(&loaded, &found, wish);
     let name = path.display().to_string();
     let text = text(path, &loaded, &look, wish);
     let said = format!("{name}: {}", look.said);
     let mut source = Source::inline(name, text);
-    source.ready = Some((path.to_owned(), loaded));
+    source.ready = Some(Ready { path: path.to_owned(), stated, loaded });
     Ok((source, said))
 }
 
@@ -159,7 +171,11 @@ fn text(path: &Path, loaded: &Loaded, look: &Look, wish: &Wish) -> String {
     let size = wish.size.unwrap_or(SIZE);
     let Grid { size: [x, y, z], .. } = loaded.grid;
     let mut text = format!("# {} ({x} × {y} × {z} voxels).\n# {}.\n", one_line(&file), look.said);
-    let _ = write!(text, "[[entity]]\nname = \"volume\"\nvolume = {{ file = {quoted} }}\n");
+    let choice = |key: &str, stated: Option<usize>| {
+        stated.map_or(String::new(), |number| format!(", {key} = {number}"))
+    };
+    let which = choice("channel", wish.channel) + &choice("time", wish.time);
+    let _ = write!(text, "[[entity]]\nname = \"volume\"\nvolume = {{ file = {quoted}{which} }}\n");
     if !look.classify.is_empty() {
         text += &look.classify;
         text += "material = { color = \"#efe6d8\", ambient = 0.06, diffuse = 0.86, specular = 0.12, shininess = 24 }\n";
