@@ -11,11 +11,10 @@ use glam::DVec3;
 use hecs::World;
 use rayon::prelude::*;
 
-use crate::components::{
-    Classify, Clip, Filter, Material, Order, Sampling, Surface, View, Voxelize,
-};
+use crate::components::{Classify, Clip, Material, Order, Sampling, Surface, View, Voxelize};
 use crate::error::Error;
 use crate::polygon::face::{Face, Faces};
+use crate::polygon::smooth::CornerNormals;
 use crate::view::camera::Camera;
 use crate::view::composite::thicken;
 use crate::view::extent::Extent;
@@ -25,6 +24,7 @@ use crate::volume::coefficients::Coefficients;
 use crate::volume::gel::Gel;
 use crate::volume::grid::{Scalars, smallest_spacing};
 use crate::volume::pyramid::Pyramid;
+use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, volumes};
 use gelled::Gelled;
 use traced::Traced;
@@ -40,7 +40,8 @@ pub struct FirstHits {
     pub size: [usize; 2],
     /// Depth from the focal plane along the line of sight, world units, less is nearer; NaN where nothing is met.
     pub depth: Vec<f32>,
-    /// The unit normal towards the observer, world; zeros where nothing is met or the gel has no slope.
+    /// The unit normal, world, on the side that is seen: of a smooth mesh that of the surface that it stands for; zeros where
+    /// nothing is met or the gel has no slope.
     pub normal: Vec<[f32; 3]>,
     /// The place in the scene of the entity that is met, from 1; 0 where nothing is.
     pub entity: Vec<u32>,
@@ -65,23 +66,32 @@ pub fn first_hits(world: &World) -> Result<FirstHits, Error> {
     let seen = volumes(world).into_iter();
     let seen: Vec<_> = seen.filter(|volume| volume.content != Content::Projected).collect();
     let step = sampling.distance_mm.or_else(|| smallest_spacing(seen.iter().map(|v| v.grid)));
-    let volumes = seen.iter().filter_map(|volume| asked(world, volume, sampling.filter)).collect();
-    let mut faces = world.query::<(&Faces, &Surface, Option<&Order>)>().without::<&Voxelize>();
+    let volumes = seen.iter().filter_map(|volume| asked(world, volume, sampling)).collect();
     let camera = Camera::new(view, extent);
-    let faces: Vec<Traced> = faces
-        .iter()
-        .flat_map(|(faces, surface, order)| {
-            let opacity = f64::from(surface.opacity);
-            let traced = |face: &Face| Traced::new(face, &camera, opacity, number(order));
-            faces.0.iter().map(traced).collect::<Vec<_>>()
-        })
-        .collect();
+    let faces = traced(world, &camera);
     let step = step.unwrap_or(extent.radius());
     Ok(Scene { camera, extent: *extent, step, volumes, faces }.hits())
 }
 
+/// What is traced, and what is known of it.
+type SeenFaces<'a> = (&'a Faces, &'a Surface, Option<&'a CornerNormals>, Option<&'a Order>);
+
+/// All polygons that are traced on a view.
+fn traced(world: &World, camera: &Camera) -> Vec<Traced> {
+    let mut all = world.query::<SeenFaces<'_>>().without::<&Voxelize>();
+    let of_entity = |(faces, surface, normals, order): SeenFaces| {
+        let opacity = f64::from(surface.opacity);
+        let traced = |(at, face): (usize, &Face)| {
+            let bent = normals.and_then(|normals| normals.over(at, face));
+            Traced::new((face, bent), camera, opacity, number(order))
+        };
+        faces.0.iter().enumerate().map(traced).collect::<Vec<_>>()
+    };
+    all.iter().flat_map(of_entity).collect()
+}
+
 /// A volume as rays of the view sample it; `None` where it has neither gel nor values.
-fn asked(world: &World, volume: &SceneVolume, filter: Filter) -> Option<Volume> {
+fn asked(world: &World, volume: &SceneVolume, sampling: &Sampling) -> Option<Volume> {
     let SceneVolume { entity, grid, unit, content } = *volume;
     let order = world.get::<&Order>(entity).ok();
     let content = if content == Content::Values {
@@ -89,11 +99,13 @@ fn asked(world: &World, volume: &SceneVolume, filter: Filter) -> Option<Volume> 
         let mut query = world.query_one::<Stated<'_>>(entity);
         let (scalars, classify, material, clip) = query.get().ok()?;
         let made = world.get::<&Coefficients>(entity).map(|made| made.values.clone());
-        let sampled = (made.unwrap_or_else(|_| scalars.clone()), filter);
+        let sampled = (made.unwrap_or_else(|_| scalars.clone()), sampling.filter);
         let pyramid = world.get::<&Pyramid>(entity).map(|pyramid| (*pyramid).clone()).ok();
         let material = material.cloned().unwrap_or_default();
         let stated = (classify, &material, clip);
-        Asked::Values(Box::new(Valued::new(sampled, (grid, unit), pyramid, stated)))
+        let finite = world.get::<&Ranges>(entity).is_ok_and(|ranges| ranges.are_finite());
+        let valued = Valued::new(sampled, (grid, unit), pyramid, stated);
+        Asked::Values(Box::new(valued.integrated(sampling.integrate && finite)))
     } else {
         Asked::Gel(Gelled::new(world.get::<&Gel>(entity).ok()?.lit.clone(), &grid))
     };
@@ -168,7 +180,7 @@ impl Scene {
             while let Some((depth, face)) = met.next_if(|(depth, _)| *depth < until) {
                 clear *= 1.0 - face.opacity;
                 if clear < HALF {
-                    let normal = facing(face.normal);
+                    let normal = face.normal_seen(&ray, depth);
                     return Some(Hit { depth, normal, entity: face.entity });
                 }
             }

@@ -79,3 +79,50 @@ fn maps_of_values_lie_on_their_surface() {
         assert_eq!(pixel(&maps, [12, 12]), [30.0, 0.0, -1.0, 0.0, 1.0]);
     }
 }
+
+#[test]
+fn a_smooth_mesh_has_the_normals_of_what_it_stands_for() {
+    let place = Place::new();
+    let ball =
+        "mesh = { ellipsoid = { center = [0, 0, 0], radii = [20, 20, 20], subdivisions = 3 } }";
+    place.write(
+        "s.toml",
+        format!("[[entity]]\nname = \"ball\"\n{ball}\n[[entity]]\nname = \"eye\"\nview = {{ size = [60, 60], height_mm = 60, focal_point = [0, 0, 0] }}\n"),
+    );
+    // The most that a normal is off from the sphere's, degrees.
+    let off = |more: &str| {
+        place.done(&format!("render s.toml -q -o a.png --maps a.npy {more}"));
+        let maps = place.read("a.npy");
+        let of = |[x, y]: [usize; 2]| {
+            let [depth, nx, ny, nz, entity] = pixel(&maps, [x, y]);
+            let (x, z) = (x as f32 + 0.5 - 30.0, 30.0 - y as f32 - 0.5);
+            assert!(entity == 1.0 && ny < 0.0);
+            let along = (nx * x + ny * depth + nz * z) / (x * x + z * z + depth * depth).sqrt();
+            along.min(1.0).acos().to_degrees()
+        };
+        [[30, 30], [38, 31], [25, 36], [30, 17], [41, 39], [20, 33]]
+            .map(of)
+            .into_iter()
+            .fold(0.0, f32::max)
+    };
+    let (flat, smooth) = (off(""), off("--set ball.smooth.crease_degrees=60"));
+    assert!(flat > 1.5 && smooth < 0.5, "{flat} {smooth}");
+}
+
+#[test]
+fn integrated_values_are_met_where_they_are_seen_at_long_steps() {
+    let place = Place::new();
+    // A shell much thinner than a step.
+    let transfer = "classify = { transfer = [{ value = 0.48, opacity = 0 }, { value = 0.49, opacity = 1 }, { value = 0.51, opacity = 1 }, { value = 0.52, opacity = 0 }] }";
+    place.write("s.toml", SCENE.replace("classify = { iso = [{ value = 0.5 }] }", transfer));
+    let met = |more: &str| {
+        let values = "--set ball.volume.reconstruct=values --set eye.sampling.distance_mm=4";
+        place.done(&format!("render s.toml -q -o a.png --maps a.npy {values} {more}"));
+        let maps = place.read("a.npy");
+        // A square within the ball's outline.
+        let all = (0..900).map(|at| [15 + at % 30, 15 + at / 30]);
+        all.filter(|at| pixel(&maps, *at)[4] == 2.0).count()
+    };
+    let (samples, integrated) = (met(""), met("--set eye.sampling.integrate=true"));
+    assert!(samples < 400 && integrated == 900, "{samples} {integrated}");
+}

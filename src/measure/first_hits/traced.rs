@@ -1,6 +1,6 @@
 //! A polygon as the middles of pixels meet it.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use crate::polygon::face::Face;
 use crate::polygon::outline::edges;
@@ -9,7 +9,9 @@ use crate::view::ray::Ray;
 
 /// A polygon, with two axes of its plane.
 pub(super) struct Traced {
-    pub normal: DVec3,
+    normal: DVec3,
+    /// World points of it to vectors along the normal of what it stands for, where that is not flat.
+    bent: Option<DAffine3>,
     center: DVec3,
     axes: [DVec3; 2],
     outlines: Vec<Vec<[f64; 2]>>,
@@ -20,8 +22,13 @@ pub(super) struct Traced {
 }
 
 impl Traced {
-    /// A face of an entity on a view.
-    pub fn new(face: &Face, camera: &Camera, opacity: f64, entity: u32) -> Self {
+    /// A face of an entity on a view; `bent` is as of [`over`](crate::polygon::smooth::CornerNormals::over).
+    pub fn new(
+        (face, bent): (&Face, Option<DAffine3>),
+        camera: &Camera,
+        opacity: f64,
+        entity: u32,
+    ) -> Self {
         let axes = face.normal.any_orthonormal_pair();
         let flat = |vertex: &DVec3| {
             let from = *vertex - face.center;
@@ -31,7 +38,7 @@ impl Traced {
             face.outlines.iter().map(|outline| outline.iter().map(flat).collect()).collect();
         let Face { normal, center, .. } = *face;
         let rows = rows(face, camera);
-        Self { normal, center, axes: [axes.0, axes.1], outlines, rows, opacity, entity }
+        Self { normal, bent, center, axes: [axes.0, axes.1], outlines, rows, opacity, entity }
     }
 
     /// Whether the middles of a row of pixels may meet it.
@@ -51,6 +58,18 @@ impl Traced {
         let edges = self.outlines.iter().flat_map(|outline| edges(outline));
         let inside = edges.filter(|edge| crosses(*edge)).count() % 2 == 1;
         (depth.is_finite() && inside).then_some(depth)
+    }
+}
+
+impl Traced {
+    /// Its unit normal where a ray meets it at a depth, on the side that is seen.
+    pub fn normal_seen(&self, ray: &Ray, depth: f64) -> DVec3 {
+        let facing = |normal: DVec3, toward: DVec3| {
+            if normal.dot(toward) < 0.0 { -normal } else { normal }
+        };
+        let flat = facing(self.normal, -ray.along);
+        let bent = self.bent.and_then(|bent| bent.transform_point3(ray.at(depth)).try_normalize());
+        bent.map_or(flat, |bent| facing(bent, flat))
     }
 }
 

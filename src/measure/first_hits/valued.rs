@@ -24,6 +24,8 @@ pub(super) struct Valued {
     pub pyramid: Option<Pyramid>,
     classifier: Classifier,
     surfaces: Vec<SharpContour>,
+    /// Whether slabs are integrated from one end to the other.
+    integrated: bool,
     cut: Option<Cut>,
     to_index: DAffine3,
     level: Level,
@@ -41,6 +43,7 @@ impl Valued {
         Self {
             surfaces: classifier.surfaces(),
             classifier,
+            integrated: false,
             cut: clip.map(|clip| Cut::new(clip, &grid)),
             to_index: grid.world_to_index(),
             level: Level::new(),
@@ -51,16 +54,40 @@ impl Valued {
         }
     }
 
+    /// With slabs integrated, where that is asked for and means something to the classification.
+    pub fn integrated(self, asked: bool) -> Self {
+        Self { integrated: asked && self.classifier.integrates(), ..self }
+    }
+
     /// The opacity of a slab around a world point, per opacity unit; `way` is the ray's way through it.
     pub fn opacity(&self, world: DVec3, way: DVec3) -> f64 {
-        let reach = if self.surfaces.is_empty() { None } else { Some(way) };
-        if !self.may_show(world, reach) {
+        let around = self.integrated || !self.surfaces.is_empty();
+        if !self.may_show(world, around.then_some(way)) {
             return 0.0;
         }
-        let Some(Sampled { value, gradient }) = self.sampled(world) else { return 0.0 };
-        let whole = f64::from(self.classifier.opacity(value, gradient));
+        let Some(sampled) = self.sampled(world) else { return 0.0 };
+        let integral = self.integrated.then(|| self.integral(world, way, &sampled)).flatten();
+        let whole = integral
+            .unwrap_or_else(|| f64::from(self.classifier.opacity(sampled.value, sampled.gradient)));
         let left = self.cut.as_ref().map_or(1.0, |cut| cut.at(world).left(way));
         if left >= 1.0 { whole } else { thicken(whole, left) }
+    }
+
+    /// The opacity per opacity unit of a slab through which the scalar goes evenly from its beginning to its middle and on to
+    /// its end; `None` where one of them is no number or outside.
+    fn integral(&self, middle: DVec3, way: DVec3, sampled: &Sampled) -> Option<f64> {
+        let end = |part: f64| Some(self.sampled(middle + way * part)?.value);
+        let values = [end(-0.5)?, sampled.value, end(0.5)?];
+        if !values.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        let mut depth = 0.0;
+        for half in values.windows(2) {
+            let half = [half[0], half[1]];
+            self.classifier
+                .along(half, sampled.gradient, |piece| depth += piece.part * piece.depth / 2.0);
+        }
+        Some(-libm::expm1(-depth))
     }
 
     /// The surfaces without thickness that a stretch around a world point crosses: which part of it lies before each, and its
