@@ -69,7 +69,7 @@ pub struct Flags {
     /// Of a volume of several channels without a scene (Zarr): which is read, 0 the first
     #[arg(long, value_name = "N", global = true)]
     pub channel: Option<usize>,
-    /// Of a volume of several times without a scene (Zarr): which is read, 0 the first
+    /// Of a volume of several times without a scene (Zarr, NIfTI): which is read, 0 the first
     #[arg(long, value_name = "N", global = true)]
     pub time: Option<usize>,
     /// Says nothing but errors

@@ -32,7 +32,7 @@ pub struct Volume {
     /// For a file of several channels (Zarr): which is read, 0 the first; default 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<usize>,
-    /// For a file of several times (Zarr): which is read, 0 the first; default 0.
+    /// For a file of several times (Zarr, NIfTI): which is read, 0 the first; default 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<usize>,
     /// The world point that the middle of the volume is moved to, of the file and of the stand-in alike; default: where the file puts it.

@@ -51,15 +51,17 @@ pub(crate) struct Format {
     read: fn(Stream, &Path, &Stated) -> Result<Loaded, String>,
     /// What its header promises, before a voxel is read; errors as those of `read`.
     promised: fn(&mut Stream, &Path, &Stated) -> Result<Promise, String>,
+    /// Which keys choose among the volumes of a file of this format: of `channel` and `time`.
+    takes: &'static [&'static str],
 }
 
 /// Bytes at the start of a file that tell its format: MRC has its word at 208, NIfTI at 344.
 const HEAD: usize = 352;
 
-/// Declares the formats of volumes: a row is a file, what people call the format, how its names end, and whether the first
-/// bytes of a file tell it.
+/// Declares the formats of volumes: a row is a file, what people call the format, how its names end, whether the first
+/// bytes of a file tell it, and which of `channel` and `time` it has several of.
 macro_rules! formats {
-    ($($file:ident $name:literal $extensions:tt $recognizes:expr;)*) => {
+    ($($file:ident $name:literal $extensions:tt $recognizes:expr $(, takes $key:literal)?;)*) => {
         $(mod $file;)*
 
         /// The formats of volumes; one more is a file and a row.
@@ -67,6 +69,7 @@ macro_rules! formats {
             name: $name,
             extensions: &$extensions,
             recognizes: $recognizes,
+            takes: &[$($key)?],
             read: $file::read,
             promised: $file::promised,
         }),*];
@@ -75,7 +78,7 @@ macro_rules! formats {
 
 formats! {
     nrrd "NRRD" ["nrrd", "nhdr"] Some(nrrd::recognizes);
-    nifti "NIfTI" ["nii", "nii.gz"] Some(nifti::recognizes);
+    nifti "NIfTI" ["nii", "nii.gz"] Some(nifti::recognizes), takes "time";
     mrc "MRC or CCP4" ["mrc", "mrc.gz", "map", "map.gz", "ccp4", "ccp4.gz"] Some(mrc::recognizes);
     dicom "DICOM" ["dcm"] Some(dicom::recognizes);
     metaimage "MetaImage" ["mha", "mhd"] Some(metaimage::recognizes);
@@ -185,7 +188,7 @@ fn read_stream(stream: Stream, path: &Path, stated: &Stated) -> Result<Loaded, S
     if format.recognizes.is_some() {
         loaded.warnings.extend(stated.unused());
     }
-    loaded.warnings.extend(stated.unused_choices());
+    loaded.warnings.extend(stated.unused_choices(format.takes));
     Ok(loaded)
 }
 

@@ -48,14 +48,50 @@ impl Stated {
         Grid::new(size, placed)
     }
 
-    /// A warning for each key that only a file of several volumes has a use for.
-    pub(super) fn unused_choices(&self) -> impl Iterator<Item = String> {
-        [("channel", self.channel.is_some()), ("time", self.time.is_some())]
-            .into_iter()
-            .filter(|(_, stated)| *stated)
-            .map(|(key, _)| {
-                format!("the file's format has one volume a file: the stated `{key}` is not used")
-            })
+    /// What is stated of a key that chooses among the volumes of a file: `channel` or `time`.
+    fn choice(&self, key: &str) -> Option<usize> {
+        if key == "channel" { self.channel } else { self.time }
+    }
+
+    /// Which of `count` channels or times is read, as `key` says, and a sentence where it says nothing of several; `names` are
+    /// what some of them are called. Fails where there are not so many.
+    pub(super) fn chosen(
+        &self,
+        key: &str,
+        count: usize,
+        names: &[String],
+    ) -> Result<(usize, Option<String>), String> {
+        match self.choice(key) {
+            Some(wanted) if wanted >= count => Err(format!(
+                "`{key}` is {wanted}, and it has {count} {key}s, the first of which is 0; correct it"
+            )),
+            Some(wanted) => Ok((wanted, None)),
+            None if count <= 1 => Ok((0, None)),
+            None => {
+                let names = names.iter().filter(|name| !name.is_empty()).take(20);
+                let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
+                let names = if names.is_empty() {
+                    String::new()
+                } else {
+                    format!(" ({})", names.join(", "))
+                };
+                let said = format!(
+                    "of its {count} {key}s{names} the first is read; state `{key}` for another, 1 to {} (`--{key} 1` without a scene)",
+                    count - 1
+                );
+                Ok((0, Some(said)))
+            }
+        }
+    }
+
+    /// A warning for each key that only a file of several volumes has a use for, but those that the format `takes`.
+    pub(super) fn unused_choices(&self, takes: &[&str]) -> impl Iterator<Item = String> {
+        let stated = |key: &&str| self.choice(key).is_some() && !takes.contains(key);
+        ["channel", "time"].into_iter().filter(stated).map(|key| {
+            format!(
+                "the file's format has no more than one `{key}` a file: the stated one is not used"
+            )
+        })
     }
 
     /// A warning for each key that only a headerless file has a use for.

@@ -139,12 +139,17 @@ impl Stream {
 
     /// Leaves out bytes, as a header's `byte skip` or the offset of its voxels asks.
     pub(super) fn skip_bytes(&mut self, bytes: u64) -> Result<(), String> {
-        self.must_hold(bytes, "the bytes before its voxels")?;
+        self.skip(bytes, "the bytes before its voxels")
+    }
+
+    /// Leaves out bytes, which are `what` for a sentence.
+    pub(super) fn skip(&mut self, bytes: u64, what: &str) -> Result<(), String> {
+        self.must_hold(bytes, what)?;
         let got = io::copy(&mut self.reader.by_ref().take(bytes), &mut io::sink())
             .map_err(|e| unreadable(&e))?;
         self.spend(got);
         if got < bytes {
-            return Err(truncated(bytes, got, "the bytes before its voxels"));
+            return Err(truncated(bytes, got, what));
         }
         Ok(())
     }

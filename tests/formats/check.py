@@ -49,10 +49,10 @@ def read_nrrd(path):
     return voxels, affine
 
 
-def same(path, voxels, affine, folder, tolerance=1e-4):
+def same(path, voxels, affine, folder, tolerance=1e-4, *flags):
     """Whether gelray reads the same voxels at the same places; the affine is to left, posterior, superior."""
     out = folder / "out.nrrd"
-    run("convert", path, out)
+    run("convert", path, out, *flags)
     found, placed = read_nrrd(out)
     assert found.shape == voxels.shape, (found.shape, voxels.shape)
     assert np.array_equal(found, voxels), "voxels differ"
@@ -108,6 +108,11 @@ def nifti_of_nibabel(folder):
     for name in ["a.nii", "a.nii.gz"]:
         nibabel.save(image, folder / name)
         same(folder / name, volume(), placed(), folder)
+    times = np.stack([volume().T + time for time in range(3)], axis=3)
+    for name in ["series.nii", "series.nii.gz"]:
+        nibabel.save(nibabel.Nifti1Image(times, to_ras @ placed()), folder / name)
+        same(folder / name, volume(), placed(), folder)
+        same(folder / name, volume() + 2, placed(), folder, 1e-4, "--time", 2)
 
 
 @check()

@@ -175,7 +175,34 @@ fn flags_choose_the_channel_and_time_that_are_read_wherever_no_scene_does() {
     let ran = place.done("convert cells.zarr first.nrrd --time 3 --channel 0");
     assert!(ran.err.contains("no axis for `time`"), "{}", ran.err);
     let ran = place.done("info cube.nrrd --channel 1");
-    assert!(ran.err.contains("the stated `channel` is not used"), "{}", ran.err);
+    assert!(ran.err.contains("no more than one `channel`"), "{}", ran.err);
+}
+
+#[test]
+fn a_time_of_a_series_in_a_nifti_is_chosen() {
+    let place = Place::new();
+    // Three times of 4 × 4 × 4 bytes: 0 everywhere, 10 and 20.
+    let mut bytes = vec![0_u8; 352];
+    bytes[..4].copy_from_slice(&348_u32.to_le_bytes());
+    for (axis, n) in [4_u8, 4, 4, 4, 3].into_iter().enumerate() {
+        bytes[40 + 2 * axis] = n;
+    }
+    bytes[70] = 2;
+    for axis in 0..4 {
+        bytes[76 + 4 * axis..80 + 4 * axis].copy_from_slice(&1.0_f32.to_le_bytes());
+    }
+    bytes[344..348].copy_from_slice(b"n+1\0");
+    bytes.extend((0..192).map(|at| at / 64 * 10));
+    place.write("series.nii", &bytes);
+    let ran = place.done("info series.nii");
+    assert!(ran.err.contains("of its 3 times the first is read"), "{}", ran.err);
+    let ran = place.done("info series.nii --time 2");
+    assert!(ran.out.contains("20 to 20") && ran.out.contains("4 × 4 × 4 of uint8"), "{}", ran.out);
+    place.done("render series.nii --time 1 -o a.png --size 20x20 --save-scene a.toml");
+    assert!(String::from_utf8(place.read("a.toml")).unwrap().contains("time = 1"));
+    place.refused("convert series.nii a.nrrd --time 3", 1, &["it has 3 times"]);
+    place.write("series.nii", &bytes[..500]);
+    place.refused("convert series.nii a.nrrd --time 1", 1, &["truncated"]);
 }
 
 #[test]

@@ -34,7 +34,7 @@ pub(super) fn promised(stream: &mut Stream, path: &Path, _: &Stated) -> Result<P
 /// Reads the one series in a folder.
 pub(super) fn read_folder(folder: &Path, stated: &Stated) -> Result<Loaded, String> {
     let mut loaded = volume(series::of_folder(folder)?, stated)?;
-    loaded.warnings.extend(stated.unused_choices());
+    loaded.warnings.extend(stated.unused_choices(&[]));
     Ok(loaded)
 }
 

@@ -13,6 +13,8 @@ const FIRST_VOXEL: f32 = 352.0;
 pub(super) struct Header {
     pub(super) order: Order,
     pub(super) size: [usize; 3],
+    /// How many volumes of that size follow each other, at least 1.
+    pub(super) times: usize,
     /// The type of its numbers; `None` for RGBA of 8 bits each.
     pub(super) kind: Option<NumberType>,
     /// Bytes from the start of the file to the first voxel.
@@ -51,7 +53,7 @@ impl Words<'_> {
 }
 
 impl Header {
-    /// Reads a header; fails where it is of another format, of another type or not three-dimensional.
+    /// Reads a header; fails where it is of another format, of another type or of no volumes of three axes.
     pub(super) fn read(stream: &mut Stream) -> Result<Self, String> {
         let block = stream.block::<LENGTH>("its header")?;
         let words = Words(&block, order(&block)?);
@@ -69,9 +71,11 @@ impl Header {
                 ));
             }
         }
+        let (size, times) = size(&words)?;
         Ok(Self {
             order: words.1,
-            size: size(&words)?,
+            size,
+            times,
             kind: kind(words.short(70))?,
             voxel_offset: voxel_offset(words.float(108))?,
             slope: f64::from(Some(words.float(112)).filter(|s| s.is_normal()).unwrap_or(1.0)),
@@ -101,16 +105,18 @@ fn order(block: &[u8; LENGTH]) -> Result<Order, String> {
     }
 }
 
-fn size(words: &Words) -> Result<[usize; 3], String> {
+/// Voxels on each axis of space, and how many volumes of them there are in time.
+fn size(words: &Words) -> Result<([usize; 3], usize), String> {
     let sizes: [i16; 8] = std::array::from_fn(|i| words.short(40 + 2 * i));
     let axes = usize::try_from(sizes[0]).unwrap_or(0);
-    let flat = sizes.get(4..=axes).is_none_or(|more| more.iter().all(|&n| n == 1));
-    if !(3..=7).contains(&axes) || !flat || sizes[1..4].iter().any(|&n| n < 1) {
+    let flat = sizes.get(5..=axes).is_none_or(|more| more.iter().all(|&n| n == 1));
+    let times = if axes < 4 { 1 } else { sizes[4] };
+    if !(3..=7).contains(&axes) || !flat || times < 1 || sizes[1..4].iter().any(|&n| n < 1) {
         return Err(format!(
-            "its `dim` is {sizes:?}, and one volume of three axes is expected; take one volume out of the series and save it alone"
+            "its `dim` is {sizes:?}, and a volume of three axes or a series of such in time is expected; take one volume out and save it alone"
         ));
     }
-    Ok([sizes[1] as usize, sizes[2] as usize, sizes[3] as usize])
+    Ok(([sizes[1] as usize, sizes[2] as usize, sizes[3] as usize], times as usize))
 }
 
 fn kind(code: i16) -> Result<Option<NumberType>, String> {

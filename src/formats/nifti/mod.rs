@@ -28,7 +28,11 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
     let mut warnings = Vec::new();
     let placed = placement::affine(&header, &mut warnings);
     let grid = stated.grid(header.size, placed)?;
+    let (time, said) = stated.chosen("time", header.times, &[])?;
+    warnings.extend(said);
+    let each = of_size(header.size, header.kind.map_or(4, NumberType::bytes));
     stream.skip_bytes(header.voxel_offset - LENGTH as u64)?;
+    stream.skip(each.saturating_mul(time as u64), "the times before its voxels")?;
     let mut source = Binary { stream: &mut stream, order: header.order };
     let voxels = match header.kind {
         None => number::painted(&mut source, NumberType::U8, grid.voxels())?,
@@ -37,6 +41,8 @@ pub(super) fn read(mut stream: Stream, _: &Path, stated: &Stated) -> Result<Load
             Voxels::Scalars(scaled(scalars, header.slope, header.intercept, &mut warnings))
         }
     };
+    let after = (header.times - 1 - time) as u64;
+    stream.skip(each.saturating_mul(after), "the times after its voxels")?;
     warnings.extend(stream.finish()?);
     Ok(Loaded { grid, voxels, warnings })
 }

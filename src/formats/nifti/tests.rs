@@ -145,11 +145,12 @@ fn what_is_not_one_volume_of_numbers_is_refused() {
     refuse(&|m| m.short(46, 1), "at least 2");
     refuse(
         &|m| {
-            m.short(40, 4);
-            m.short(48, 5);
+            m.short(40, 5);
+            m.short(50, 5);
         },
         "series",
     );
+    refuse(&|m| m.put(40, [4, 0, 2, 0, 2, 0, 2, 0, 0, 0]), "series");
     refuse(&|m| m.short(70, 128), "`datatype`");
     refuse(&|m| m.short(42, 9), "truncated");
     refuse(&|m| m.floats(80, &[0.0]), "spacing_mm");
@@ -160,6 +161,32 @@ fn what_is_not_one_volume_of_numbers_is_refused() {
     refuse(&|m| m.put(0, 540_i32.to_le_bytes()), "NIfTI-2");
     refuse(&|m| m.bytes[345] = b'i', ".hdr");
     refuse(&|m| m.bytes.truncate(100), "header needs 348 bytes");
+}
+
+#[test]
+fn one_time_of_a_series_is_read_and_the_others_must_be_there() {
+    let mut made = Made::new(true, 4);
+    made.short(40, 4);
+    made.short(48, 3);
+    let voxels: Vec<u8> = (0..24_i16).flat_map(i16::to_be_bytes).collect();
+    let first = |stated: &Stated, bytes: Vec<u8>| {
+        let loaded = read(Stream::of(bytes), Path::new("test.nii"), stated)?;
+        let Voxels::Scalars(Scalars::I16(values)) = loaded.voxels else { panic!("not i16") };
+        assert_eq!((loaded.grid.size, values.len()), ([2; 3], 8));
+        Ok::<_, String>((values[0], loaded.warnings))
+    };
+    let whole = [&made.bytes[..], &voxels].concat();
+    for (time, value) in [(0, 0), (1, 8), (2, 16)] {
+        let stated = Stated { time: Some(time), ..Stated::default() };
+        let (found, warnings) = first(&stated, whole.clone()).unwrap();
+        assert_eq!((found, warnings.len()), (value, 1));
+        let short = whole[..whole.len() - 1].to_vec();
+        assert!(first(&stated, short).unwrap_err().contains("truncated"));
+    }
+    let (found, warnings) = first(&Stated::default(), whole.clone()).unwrap();
+    assert!(found == 0 && warnings[1].contains("of its 3 times the first is read"));
+    let fourth = Stated { time: Some(3), ..Stated::default() };
+    assert!(first(&fourth, whole).unwrap_err().contains("it has 3 times"));
 }
 
 #[test]

@@ -126,9 +126,9 @@ fn taken(
     stated: &Stated,
     said: &mut Vec<String>,
 ) -> Result<usize, String> {
-    let (key, many, wanted) = match axis.kind {
-        Kind::Channel => ("channel", "channels", stated.channel),
-        Kind::Time => ("time", "times", stated.time),
+    let (key, names) = match axis.kind {
+        Kind::Channel => ("channel", labels),
+        Kind::Time => ("time", &[][..]),
         _ if count == 1 => return Ok(0),
         _ => {
             return Err(format!(
@@ -137,22 +137,9 @@ fn taken(
             ));
         }
     };
-    if let Some(wanted) = wanted.filter(|&wanted| wanted >= count) {
-        return Err(format!(
-            "`{key}` is {wanted}, and it has {count} {many}, the first of which is 0; correct it"
-        ));
-    }
-    if wanted.is_none() && count > 1 {
-        let names = labels.iter().filter(|name| axis.kind == Kind::Channel && !name.is_empty());
-        let names: Vec<_> = names.take(20).map(|name| format!("`{name}`")).collect();
-        let names =
-            if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) };
-        said.push(format!(
-            "of its {count} {many}{names} the first is read; state `{key}` for another, 1 to {} (`--{key} 1` without a scene)",
-            count - 1
-        ));
-    }
-    Ok(wanted.unwrap_or(0))
+    let (at, what) = stated.chosen(key, count, names)?;
+    said.extend(what);
+    Ok(at)
 }
 
 #[cfg(test)]
