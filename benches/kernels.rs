@@ -96,8 +96,19 @@ view = { azimuth = 30, elevation = 20, size = [64, 64] }
 sampling = { coarsest = 4, finest = 4 }
 "#;
 
+/// A polygon that is scan-converted into it.
+const SQUARE: &str = r"
+[[entity]]
+polygon = { vertices = [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]] }
+voxelize = {}
+";
+
 fn stage<P: Product>(bencher: Bencher, stage: &str) {
-    let mut stage = Stage::new(BALL, stage);
+    stage_of::<P>(bencher, BALL, stage);
+}
+
+fn stage_of<P: Product>(bencher: Bencher, scene: &str, stage: &str) {
+    let mut stage = Stage::new(scene, stage);
     bencher.counter(ItemsCount::new(64_usize.pow(3))).bench_local(|| stage.again::<P>());
 }
 
@@ -111,9 +122,10 @@ fn classify(bencher: Bencher) {
     stage::<Opacity>(bencher, "classify");
 }
 
+/// Colors are kept where polygons are matted with them.
 #[divan::bench]
 fn shade(bencher: Bencher) {
-    stage::<LitColors>(bencher, "shade");
+    stage_of::<LitColors>(bencher, &format!("{BALL}{SQUARE}"), "shade");
 }
 
 #[divan::bench]

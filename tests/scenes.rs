@@ -114,6 +114,14 @@ entity = [
 ]
 "#;
 
+/// A volume that is projected: of it the rays themselves read the ranges.
+const PROJECTED: &str = r#"
+entity = [
+    { volume = { file = "phantom:ball" }, projection = "maximum" },
+    { view = { size = [8, 8] } },
+]
+"#;
+
 /// How many products a job makes and keeps, run alone; `None` if it fails.
 fn ran(job: &Job, world: &mut World) -> Option<(u32, u32)> {
     let ran = Schedule::new(&[*job]).unwrap().run(world, &Watch::default()).ok()?;
@@ -124,8 +132,11 @@ fn ran(job: &Job, world: &mut World) -> Option<(u32, u32)> {
 fn a_system_reads_the_products_that_it_names_and_no_other() {
     let mut idle: Vec<_> =
         JOBS.iter().flat_map(|job| job.reads.iter().map(move |read| (job, *read))).collect();
-    let shadowing = load(&Source::inline("shadowing", SHADOWING), &[], &[], false).unwrap().world;
-    let mut worlds = vec![("shadowing".to_owned(), shadowing)];
+    let inline = |(name, scene): (&str, &str)| {
+        (name.to_owned(), load(&Source::inline(name, scene), &[], &[], false).unwrap().world)
+    };
+    let mut worlds: Vec<_> =
+        [("shadowing", SHADOWING), ("projected", PROJECTED)].into_iter().map(inline).collect();
     worlds.extend(names("scenes", "toml").into_iter().map(|name| {
         let world = loaded(&name, 8).unwrap();
         (name, world)
@@ -145,6 +156,8 @@ fn a_system_reads_the_products_that_it_names_and_no_other() {
             }
         }
         idle.retain(|(job, read)| {
+            // What the jobs before it made anew is read once.
+            ran(job, &mut world);
             let with = ran(job, &mut world);
             let restore = read.hide(&mut world);
             let without = ran(job, &mut world);

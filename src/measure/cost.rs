@@ -15,9 +15,10 @@ pub struct PaperCost {
 pub const FRAME: [&str; 2] = ["cast", "resample"];
 
 /// The seconds of the paper's §7, stage by stage. It states none for gradients (a part of shading) and shadows.
-pub static PAPER: [PaperCost; 7] = [
+pub static PAPER: [PaperCost; 8] = [
     PaperCost { stage: "classify", seconds: 60.0, what: "classifying" },
     PaperCost { stage: "shade", seconds: 60.0, what: "shading" },
+    PaperCost { stage: "relight", seconds: 60.0, what: "shading, unless apart" },
     PaperCost { stage: "scan_convert", seconds: 1.0, what: "a polygon" },
     PaperCost { stage: "pyramid", seconds: 60.0, what: "pyramid construction" },
     PaperCost { stage: "frame", seconds: 50.0, what: "volume alone" },

@@ -4,6 +4,7 @@ pub mod arrays;
 pub mod coverage;
 pub mod enclosed;
 pub mod face;
+pub(crate) mod matted;
 pub mod may_hold;
 pub(crate) mod outline;
 pub(crate) mod shape;

@@ -20,6 +20,21 @@ pub struct Tint {
     pub colors: Shared<Vec4>,
     /// What the opacity of each voxel is multiplied by, 0..=1; `None`: nothing.
     pub factors: Option<Shared<f32>>,
+    brightest: f32,
+}
+
+impl Tint {
+    fn new(colors: Vec<Vec4>, factors: Option<Vec<f32>>) -> Self {
+        let brightest = colors.par_iter().map(|color| color.truncate().max_element());
+        let brightest = brightest.reduce(|| 0.0, f32::max);
+        Self { colors: Shared::new(colors), factors: factors.map(Shared::new), brightest }
+    }
+
+    /// What no channel of its colors is above.
+    #[must_use]
+    pub(crate) fn brightest(&self) -> f32 {
+        self.brightest
+    }
 }
 
 /// How labels look: color (linear) and opacity.
@@ -93,7 +108,7 @@ pub fn alone(
         *voxel = if voxel.w > 0.0 { (voxel.truncate() / voxel.w).extend(1.0) } else { Vec4::ZERO };
     });
     let point = |opacity: f32| TransferPoint { value: opacity * WHOLE, opacity, color: None };
-    let tint = Tint { colors: Shared::new(field), factors: None };
+    let tint = Tint::new(field, None);
     (Scalars::F32(Shared::new(scalars)), vec![point(0.0), point(1.0)], tint)
 }
 
@@ -117,7 +132,7 @@ pub fn over(labels: &[u32], size: [usize; 3], looks: &Looks, sigma: f32, outside
         },
     );
     factors.par_iter_mut().for_each(|factor| *factor = factor.clamp(0.0, 1.0));
-    Tint { colors: Shared::new(colors), factors: Some(Shared::new(factors)) }
+    Tint::new(colors, Some(factors))
 }
 
 /// What a field is smoothed by: a number or several.

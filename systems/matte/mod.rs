@@ -11,6 +11,7 @@ use crate::components::{CastsShadow, Clip, Light, Order, Surface, Voxelize};
 use crate::error::Error;
 use crate::polygon::coverage::{Ball, Flat};
 use crate::polygon::face::Faces;
+use crate::polygon::matted::matted;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
@@ -81,13 +82,7 @@ impl System for MattePolygons {
     }
 
     fn plan(world: &World) -> Plan {
-        let mut volumes = volumes(world);
-        let mut query = world.query::<&Faces>().with::<(&Voxelize, &Surface)>();
-        let into: Vec<_> = query
-            .iter()
-            .filter_map(|faces| Some(around(&volumes, || faces.middle())?.entity))
-            .collect();
-        volumes.retain(|volume| into.contains(&volume.entity));
+        let volumes = matted(world);
         if volumes.is_empty() {
             return Plan::absent("no polygon is scan-converted into a volume");
         }

@@ -3,36 +3,33 @@
 use fearless_simd::Simd;
 use rayon::prelude::*;
 
+use super::sent::Sent;
 use crate::components::TexelKind;
-use crate::light::strength::VoxelStrength;
-use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
+use crate::light::lit_bricks::DARK;
+use crate::schedule::Watch;
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE};
 use crate::volume::gel::{BRIGHT, FAINT, Fill, GelBricks, ROW, TEXELS, Texel};
 use crate::volume::interest::Interest;
 
-/// Colours of the interesting voxels of a layer, and what weakens them.
+/// The interesting voxels of a layer.
 #[derive(Debug)]
 pub(crate) struct LitLayer<'a> {
     /// α.
-    pub opacity: &'a Bricks<f32>,
-    /// What no shadow weakens.
-    pub base: &'a Bricks<[f32; 3]>,
-    /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
-    pub shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
+    opacity: &'a Bricks<f32>,
+    /// c_T.
+    sent: Sent<'a>,
     /// What no channel of `c_T` is above.
-    pub brightest: f32,
+    brightest: f32,
+    /// Gel of what is no longer waited for is left clear.
+    watch: &'a Watch,
 }
 
 impl<'a> LitLayer<'a> {
-    /// A layer of which no channel of `c_T` is above `known`, if that is known; else as near as can be told brick by brick.
+    /// A layer of these opacities, which sends such light.
     #[must_use]
-    pub fn new(
-        opacity: &'a Bricks<f32>,
-        base: &'a Bricks<[f32; 3]>,
-        shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
-        known: Option<f32>,
-    ) -> Self {
-        let layer = Self { opacity, base, shadowed, brightest: f32::INFINITY };
-        Self { brightest: known.unwrap_or_else(|| layer.measured()), ..layer }
+    pub fn new(opacity: &'a Bricks<f32>, sent: Sent<'a>, watch: &'a Watch) -> Self {
+        let brightest = sent.brightest(opacity);
+        Self { opacity, sent, brightest, watch }
     }
 
     /// The associated gel: `c_T · α` and α, and its interesting cells. `Auto` is decided by what there is.
@@ -59,20 +56,6 @@ impl<'a> LitLayer<'a> {
             || bricks.par_iter().any(|(_, alpha)| alpha.iter().any(|alpha| *alpha > FAINT));
         if self.brightest <= BRIGHT && opaque() { TexelKind::U16 } else { TexelKind::F32 }
     }
-
-    /// The sum over the lights of the brightest channels of any brick.
-    fn measured(&self) -> f32 {
-        let bricks: Vec<_> = self.opacity.stored().map(|(place, _)| place).collect();
-        let most = |place: &BrickPlace| {
-            let channel =
-                |bricks: &Bricks<[f32; 3]>| bricks.brick(place.brick).map_or(0.0, brightest);
-            let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, VoxelStrength::most);
-            let shadowed = self.shadowed.iter();
-            let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
-            channel(self.base) + shadowed
-        };
-        bricks.par_iter().map(most).reduce(|| 0.0, f32::max)
-    }
 }
 
 impl Fill for LitLayer<'_> {
@@ -86,26 +69,20 @@ impl Fill for LitLayer<'_> {
         texels: &mut [T; TEXELS],
     ) {
         let Some(opacity) = self.opacity.brick(brick) else { return };
-        let (base, per_full) = (self.base.brick(brick), 1.0 / full);
-        for (row, opacity) in opacity.as_chunks::<EDGE>().0.iter().enumerate() {
+        if self.watch.check().is_err() {
+            return;
+        }
+        let (mut sent, per_full) = (DARK, 1.0 / full);
+        self.sent.fill(BrickPlace::new(brick, self.opacity.size()), opacity, &mut sent);
+        for (row, (opacity, sent)) in opacity.as_chunks::<EDGE>().0.iter().zip(&sent).enumerate() {
             if opacity.iter().all(|alpha| *alpha <= 0.0) {
                 continue;
             }
-            let within = row * EDGE;
-            let mut colors = base.map_or([[0.0; 3]; EDGE], |base| base.as_chunks().0[row]);
-            for (light, strength) in &self.shadowed {
-                let Some(light) = light.brick(brick) else { continue };
-                let betas = betas(*strength, brick, within);
-                for x in 0..EDGE {
-                    for channel in 0..3 {
-                        colors[x][channel] += light[within + x][channel] * betas[x];
-                    }
-                }
-            }
             let mut channels = [[0.0; EDGE], [0.0; EDGE], [0.0; EDGE], *opacity];
-            for x in 0..EDGE {
-                for channel in 0..3 {
-                    channels[channel][x] = colors[x][channel] * opacity[x] * per_full;
+            for channel in 0..3 {
+                for x in 0..EDGE {
+                    let associated = sent[channel][x] * opacity[x] * per_full;
+                    channels[channel][x] = if opacity[x] > 0.0 { associated } else { 0.0 };
                 }
             }
             let made = &mut texels[(row / EDGE * ROW + row % EDGE) * ROW..][..EDGE];
@@ -118,25 +95,6 @@ impl Fill for LitLayer<'_> {
     }
 }
 
-/// The greatest channel of a brick's colours, at least 0.
-fn brightest(colors: &[[f32; 3]; VOXELS]) -> f32 {
-    // Eight at a time, so that they are compared in lanes.
-    let eights = colors.as_flattened().chunks_exact(8);
-    let most = eights.fold([0.0; 8], |most: [f32; 8], eight| {
-        std::array::from_fn(|i| if eight[i] > most[i] { eight[i] } else { most[i] })
-    });
-    most.into_iter().fold(0.0, f32::max)
-}
-
-/// β of eight voxels of `brick` from `within` on: 1 without a buffer, 0 where the buffer stores nothing.
-fn betas(strength: Option<&VoxelStrength>, brick: [usize; 3], within: usize) -> [f32; EDGE] {
-    let Some(strength) = strength else { return [1.0; EDGE] };
-    let Some(stored) = strength.voxels.brick(brick) else { return [0.0; EDGE] };
-    let [x, y, z] = brick.map(|brick| brick * EDGE);
-    let [y, z] = [y + within / EDGE % EDGE, z + within / (EDGE * EDGE)];
-    std::array::from_fn(|at| strength.beta(stored[within + at], [x + at, y, z]))
-}
-
 #[cfg(test)]
 mod tests {
     use glam::{Vec3, Vec4};
@@ -144,7 +102,7 @@ mod tests {
     use super::*;
     use crate::volume::gel::{CELLS, EMPTY};
 
-    use crate::light::strength::Receding;
+    use crate::light::strength::{Receding, VoxelStrength};
 
     const SIZE: [usize; 3] = [20, 17, 10];
 
@@ -183,8 +141,8 @@ mod tests {
                 brick.fill([light, 0.5, 0.0]);
                 true
             });
-            LitLayer { opacity: &opacity, base: &base, shadowed: Vec::new(), brightest: light }
-                .suited()
+            let sent = Sent::Made { base: &base, shadowed: Vec::new() };
+            LitLayer::new(&opacity, sent, &Watch::default()).suited()
         };
         assert_eq!(kind(0.5, 1.0), TexelKind::U16);
         assert_eq!(kind(0.5, 3.9), TexelKind::U16);
@@ -199,8 +157,8 @@ mod tests {
         let half = opacity.map(|_, _, made| made.fill(32768));
         let strength = VoxelStrength { voxels: half, full: 0.5, receding: Receding::NONE };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
-        let gel = LitLayer { opacity: &opacity, base: &base, shadowed, brightest: 1.0 };
-        let (gel, _) = gel.gel(TexelKind::F32);
+        let (watch, sent) = (Watch::default(), Sent::Made { base: &base, shadowed });
+        let (gel, _) = LitLayer::new(&opacity, sent, &watch).gel(TexelKind::F32);
         let beta = 32768.0 / 65535.0 * 0.5;
         for (x, y, z) in (0..3400).map(|i| (i % 20, i / 20 % 17, i / 340)) {
             let alpha = alpha([x, y, z]);
@@ -214,11 +172,9 @@ mod tests {
     fn a_brick_is_held_exactly_if_one_of_its_nine_cubed_voxels_is_interesting() {
         let opacity = opacity();
         let base = colors(&opacity, [1.0; 3]);
-        let shadowed = Vec::new();
-        let lit_layer = LitLayer { opacity: &opacity, base: &base, shadowed, brightest: 1.0 };
-        let (GelBricks::F32(gel), _) = lit_layer.gel(TexelKind::F32) else {
-            panic!("as asked for")
-        };
+        let (watch, sent) = (Watch::default(), Sent::Made { base: &base, shadowed: Vec::new() });
+        let layer = LitLayer::new(&opacity, sent, &watch);
+        let (GelBricks::F32(gel), _) = layer.gel(TexelKind::F32) else { panic!("as asked for") };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {

@@ -2,47 +2,51 @@
 
 mod lit_layer;
 mod planned;
+mod sent;
 
 use std::sync::Arc;
 
 use glam::Vec4;
 use hecs::{Entity, World};
 
-use crate::components::{Clip, TexelKind, Voxelize};
+use crate::components::{Clip, TexelKind};
 use crate::error::Error;
+use crate::light::lit_bricks::LitBricks;
 use crate::light::shading::Lamps;
 use crate::light::strength::{LightStrength, VoxelStrength};
+use crate::light::unlit::Unlit;
+use crate::polygon::matted::is_matted;
 use crate::polygon::may_hold::MayHold;
-use crate::schedule::{Outbox, Plan, ProductKey, System};
+use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::Bricks;
 use crate::volume::gel::{Gel, GelBricks, Shown};
 use crate::volume::grid::{Grid, Painted};
-use crate::volume::labels::Tint;
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
 use crate::volume::scene_volumes::{Content, SceneVolume, gels, with_content};
 
 use lit_layer::LitLayer;
 use planned::planned;
+use sent::Sent;
 
 /// Makes the [`Gel`] of every volume.
 pub(crate) struct Relight;
 
 #[derive(PartialEq)]
 struct Inputs {
-    unlit: Unlit,
+    voxels: Voxels,
     /// Of each light that casts a shadow, in the order of the scene; `None` is β = 1.
     strengths: Vec<Option<VoxelStrength>>,
-    /// What no color is above, where that is known beforehand.
-    brightest: Option<f32>,
     texel: TexelKind,
 }
 
 /// Where opacity and colours come from.
 #[derive(PartialEq)]
-enum Unlit {
-    Layer(Bricks<f32>, LitColors),
+enum Voxels {
+    /// A composite of a volume and polygons.
+    Colored(Bricks<f32>, LitColors),
+    Unlit(Box<Unlit>),
     Painted(Painted, Grid, Option<Clip>),
 }
 
@@ -51,7 +55,6 @@ impl System for Relight {
     const NAME: &'static str = "relight";
     const READS: &'static [ProductKey] = &[
         ProductKey::of::<Opacity>(),
-        ProductKey::of::<LitColors>(),
         ProductKey::of::<Composite>(),
         ProductKey::of::<LightStrength>(),
     ];
@@ -59,16 +62,15 @@ impl System for Relight {
     fn run(world: &World, out: &mut Outbox<'_, Gel>) -> Result<(), Error> {
         let watch = out.watch();
         let texel = observer::sampling(world).texel;
-        for (entity, unlit) in unlit(world) {
+        for (entity, voxels) in voxels(world) {
             // Painted voxels bring their light with them.
-            let shaded = matches!(unlit, Unlit::Layer(..));
+            let shaded = !matches!(voxels, Voxels::Painted(..));
             let strengths = if shaded { strengths(world, entity) } else { Vec::new() };
-            // The colors of polygons are told sooner brick by brick, as those of a tint are, which has one a voxel.
-            let other = world.satisfies::<hecs::Or<&Composite, &Tint>>(entity);
-            let brightest = if shaded && !other { planned::brightest(world, entity) } else { None };
-            out.derive(entity, Inputs { unlit, strengths, brightest, texel }, |inputs| {
+            out.derive(entity, Inputs { voxels, strengths, texel }, |inputs| {
                 watch.check()?;
-                inputs.relight()
+                let gel = inputs.relight(watch)?;
+                watch.check()?;
+                Ok(gel)
             })?;
         }
         Ok(())
@@ -77,12 +79,11 @@ impl System for Relight {
     fn plan(world: &World) -> Plan {
         let texel = observer::sampling(world).texel;
         let cued = observer::is_cued(world);
-        let matted = world.query::<&Voxelize>().iter().next().is_some();
         let held = |v: &SceneVolume| {
             let held = MayHold::of(world, v);
             let kind = planned(world, v, &held, texel);
             // Ambient light is kept apart for a depth cue; paint alone has none.
-            let apart = cued && (matted || v.content != Content::Painted);
+            let apart = cued && (v.content != Content::Painted || is_matted(world, v.entity));
             (held.with_polygons(world, v), kind, 1 + u64::from(apart))
         };
         let made: Vec<_> = gels(world).iter().map(|v| (v.entity, held(v))).collect();
@@ -99,32 +100,26 @@ impl System for Relight {
     }
 }
 
-/// What there is to relight: composites first, then classified volumes, then painted ones.
-fn unlit(world: &World) -> Vec<(Entity, Unlit)> {
-    type Volume<'a> = (
-        Entity,
-        &'a Grid,
-        Option<&'a Composite>,
-        Option<(&'a Opacity, &'a LitColors)>,
-        Option<&'a Painted>,
-        Option<&'a Clip>,
-    );
-    let mut volumes = world.query::<Volume>();
-    let unlit =
-        |(entity, grid, composite, classified, painted, clip): <Volume as hecs::Query>::Item<
-            '_,
-        >| {
-            let layer = match (composite, classified) {
-                (Some(Composite(layer)), _) => Some((&layer.opacity, &layer.colors)),
-                (None, Some((opacity, colors))) => Some((&opacity.voxels, colors)),
-                (None, None) => None,
-            };
-            let layer =
-                layer.map(|(opacity, colors)| Unlit::Layer(opacity.clone(), colors.clone()));
-            let painted = || painted.map(|p| Unlit::Painted(p.clone(), *grid, clip.cloned()));
-            Some((entity, layer.or_else(painted)?))
-        };
-    volumes.iter().filter_map(unlit).collect()
+/// What there is to make gel of: composites, then classified volumes, then painted ones.
+fn voxels(world: &World) -> Vec<(Entity, Voxels)> {
+    let mut composites = world.query::<(Entity, &Composite)>().with::<&Grid>();
+    let composite = |(entity, Composite(layer)): (Entity, &Composite)| {
+        (entity, Voxels::Colored(layer.opacity.clone(), layer.colors.clone()))
+    };
+    let mut made: Vec<_> = composites.iter().map(composite).collect();
+    let is_new = |made: &[(Entity, Voxels)], entity| made.iter().all(|(other, _)| *other != entity);
+    for (entity, unlit) in Unlit::all(world) {
+        if is_new(&made, entity) {
+            made.push((entity, Voxels::Unlit(Box::new(unlit))));
+        }
+    }
+    let mut painted = world.query::<(Entity, &Grid, &Painted, Option<&Clip>)>();
+    for (entity, grid, painted, clip) in &mut painted {
+        if is_new(&made, entity) {
+            made.push((entity, Voxels::Painted(painted.clone(), *grid, clip.cloned())));
+        }
+    }
+    made
 }
 
 /// β in a volume of every light that casts a shadow, in the order of the scene; `None` where none was made.
@@ -135,44 +130,71 @@ fn strengths(world: &World, volume: Entity) -> Vec<Option<VoxelStrength>> {
 }
 
 impl Inputs {
-    fn relight(&self) -> Result<Gel, Error> {
-        match &self.unlit {
-            Unlit::Painted(painted, grid, clip) => {
-                let painting = Painting::new(painted, grid, clip.as_ref());
-                let holds = |brick| painting.holds(brick);
-                let fill = |first, row: &mut [Vec4]| {
-                    painting.row(first, row);
-                    for voxel in row {
-                        *voxel = (voxel.truncate() * voxel.w).extend(voxel.w);
-                    }
-                };
-                let kind =
-                    if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
-                let lit = GelBricks::make(kind, grid.size, holds, &fill);
-                Ok(Gel { lit, ambient: None, shown: None })
+    fn relight(&self, watch: &Watch) -> Result<Gel, Error> {
+        match &self.voxels {
+            Voxels::Painted(painted, grid, clip) => {
+                Ok(self.of_paint(&Painting::new(painted, grid, clip.as_ref()), grid.size))
             }
-            Unlit::Layer(opacity, colors) => {
-                let strengths = || self.strengths.iter().flatten();
-                if let Some(other) = strengths().find(|s| s.voxels.size() != opacity.size()) {
-                    return Err(Error::Schedule(format!(
-                        "a light's strengths of {:?} voxels were made for gel of {:?}",
-                        other.voxels.size(),
-                        opacity.size()
-                    )));
-                }
-                let shadowed = colors.shadowed.iter().enumerate();
+            Voxels::Unlit(unlit) => {
+                let opacity = &unlit.opacity.voxels;
+                self.check(opacity)?;
+                let lit = Sent::Lit(LitBricks::shadowed(unlit, &self.strengths).into());
+                Ok(self.of_layer(
+                    opacity,
+                    lit,
+                    LitBricks::ambient(unlit).map(|lit| Sent::Lit(lit.into())),
+                    watch,
+                ))
+            }
+            Voxels::Colored(opacity, colors) => {
+                self.check(opacity)?;
                 let strength = |i: usize| self.strengths.get(i).and_then(Option::as_ref);
+                let shadowed = colors.shadowed.iter().enumerate();
                 let shadowed = shadowed.map(|(i, colors)| (colors, strength(i))).collect();
-                let layer = LitLayer::new(opacity, &colors.base, shadowed, self.brightest);
-                let (lit, interest) = layer.gel(self.texel);
-                let ambient = colors.ambient.as_ref().map(|base| {
-                    let layer = LitLayer::new(opacity, base, Vec::new(), self.brightest);
-                    // Both parts in the same numbers.
-                    layer.in_cells(&interest, lit.kind())
-                });
-                let shown = Shown { opacity: opacity.clone(), interest: Arc::new(interest) };
-                Ok(Gel { lit, ambient, shown: Some(shown) })
+                let lit = Sent::Made { base: &colors.base, shadowed };
+                let alone = |base| Sent::Made { base, shadowed: Vec::new() };
+                Ok(self.of_layer(opacity, lit, colors.ambient.as_ref().map(alone), watch))
             }
         }
+    }
+
+    /// An error where a light's strengths are of other voxels.
+    fn check(&self, opacity: &Bricks<f32>) -> Result<(), Error> {
+        let mut strengths = self.strengths.iter().flatten();
+        let Some(other) = strengths.find(|s| s.voxels.size() != opacity.size()) else {
+            return Ok(());
+        };
+        Err(Error::Schedule(format!(
+            "a light's strengths of {:?} voxels were made for gel of {:?}",
+            other.voxels.size(),
+            opacity.size()
+        )))
+    }
+
+    fn of_paint(&self, painting: &Painting<'_>, size: [usize; 3]) -> Gel {
+        let fill = |first, row: &mut [Vec4]| {
+            painting.row(first, row);
+            for voxel in row {
+                *voxel = (voxel.truncate() * voxel.w).extend(voxel.w);
+            }
+        };
+        let kind = if self.texel == TexelKind::Auto { painting.suited() } else { self.texel };
+        let lit = GelBricks::make(kind, size, |brick| painting.holds(brick), &fill);
+        Gel { lit, ambient: None, shown: None }
+    }
+
+    fn of_layer<'a>(
+        &self,
+        opacity: &'a Bricks<f32>,
+        lit: Sent<'a>,
+        ambient: Option<Sent<'a>>,
+        watch: &'a Watch,
+    ) -> Gel {
+        let (lit, interest) = LitLayer::new(opacity, lit, watch).gel(self.texel);
+        // Both parts in the same numbers.
+        let alone = |sent| LitLayer::new(opacity, sent, watch).in_cells(&interest, lit.kind());
+        let ambient = ambient.map(alone);
+        let shown = Shown { opacity: opacity.clone(), interest: Arc::new(interest) };
+        Gel { lit, ambient, shown: Some(shown) }
     }
 }

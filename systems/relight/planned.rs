@@ -2,9 +2,11 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Classify, Clip, Light, Material, TexelKind, Voxelize};
-use crate::light::shading::{Lamp, Reflectance, lamps};
+use crate::components::{CastsShadow, Classify, Clip, Light, Material, TexelKind};
+use crate::light::shading::{Reflectance, lamps};
 use crate::light::strength::ProjectedBy;
+use crate::light::unlit::{brightest_color, most_reflected};
+use crate::polygon::matted::is_matted;
 use crate::polygon::may_hold::MayHold;
 use crate::volume::gel::BRIGHT;
 use crate::volume::grid::Painted;
@@ -22,9 +24,8 @@ pub(crate) fn planned(
     held: &MayHold,
     stated: TexelKind,
 ) -> TexelKind {
-    let matted = world.query::<&Voxelize>().iter().next().is_some();
     let sure = stated == TexelKind::Auto
-        && !matted
+        && !is_matted(world, volume.entity)
         && match volume.content {
             Content::Classified => {
                 let brightest = brightest(world, volume.entity);
@@ -47,7 +48,7 @@ pub(crate) fn planned(
 
 /// What no channel of the colors of a classified volume is above, all lights together and whatever they fall on; `None` if that
 /// is not known beforehand.
-pub(super) fn brightest(world: &World, volume: Entity) -> Option<f32> {
+fn brightest(world: &World, volume: Entity) -> Option<f32> {
     type Stated<'a> = (&'a Classify, Option<&'a Material>, Option<&'a Tint>);
     // What a slide lets through, or a falloff below 1, may be brighter than the light.
     let mut shadows = world.query::<(&CastsShadow, Option<&ProjectedBy>)>().with::<&Light>();
@@ -66,19 +67,6 @@ pub(super) fn brightest(world: &World, volume: Entity) -> Option<f32> {
     let how = Reflectance::from(&material);
     let lamps = lamps(world, &how);
     let lamps = lamps.plain.iter().chain(lamps.shadowed.iter().map(|(_, lamp)| lamp));
-    let light = |lamp: &Lamp| lamp.light.max_element() * (how.diffuse + how.specular);
-    Some(brightest_color(classify, &material, tint) * (how.ambient + lamps.map(light).sum::<f32>()))
-}
-
-/// The greatest channel that a volume states.
-fn brightest_color(classify: &Classify, material: &Material, tint: Option<&Tint>) -> f32 {
-    let Classify { iso, regions, transfer, materials, .. } = classify;
-    let own = iso.iter().map(|contour| contour.color);
-    let own = own.chain(regions.iter().map(|tissue| tissue.color));
-    let own = own.chain(transfer.iter().map(|point| point.color));
-    let own = own.chain(materials.iter().map(|material| material.color));
-    let own = own.flatten().map(|color| color.0.max_element());
-    let tints = tint.into_iter().flat_map(|tint| tint.colors.iter());
-    let tints = tints.map(|color| color.truncate().max_element());
-    own.chain(tints).fold(material.color.0.max_element(), f32::max)
+    let lights: f32 = lamps.map(|lamp| most_reflected(lamp, &how)).sum();
+    Some(brightest_color(classify, &material, tint) * (how.ambient + lights))
 }

@@ -62,7 +62,7 @@ fn made(world: &mut World) -> Vec<&'static str> {
 #[test]
 fn a_turn_of_the_view_casts_rays_and_resamples_and_nothing_else() {
     let Parts { mut world, view, .. } = parts();
-    let all = ["ranges", "classify", "shade", "relight", "pyramid", "cast", "resample"];
+    let all = ["ranges", "classify", "relight", "pyramid", "cast", "resample"];
     assert_eq!(made(&mut world), all);
     for _ in 0..3 {
         world.get::<&mut View>(view).unwrap().azimuth += 25.0;
@@ -77,9 +77,9 @@ fn an_edit_makes_again_what_depends_on_it_and_never_the_ranges() {
     let Parts { mut world, volume, polygon, light, view } = parts();
     made(&mut world);
     let ranges = Ranges::clone(&world.get::<&Ranges>(volume).unwrap());
-    let all = ["classify", "shade", "relight", "pyramid", "cast", "resample"];
+    let all = ["classify", "relight", "pyramid", "cast", "resample"];
     // Other light makes no other cells interesting.
-    let lit = ["shade", "relight", "cast", "resample"];
+    let lit = ["relight", "cast", "resample"];
     world.get::<&mut Classify>(volume).unwrap().iso[0].value = 93.0;
     assert_eq!(made(&mut world), all);
     world.get::<&mut Material>(volume).unwrap().ambient = 0.4;

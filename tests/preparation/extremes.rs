@@ -9,7 +9,9 @@ use gelray::volume::layer::{LitColors, Opacity};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
-use super::{Ball, ball, contour, prepare, sampled, spawn_light, spawn_volume, texel, voxels};
+use super::{
+    Ball, ball, contour, keep_colors, prepare, sampled, spawn_light, spawn_volume, texel, voxels,
+};
 
 #[test]
 fn nan_is_clear_and_counted_and_leaves_every_colour_finite() {
@@ -19,6 +21,7 @@ fn nan_is_clear_and_counted_and_leaves_every_colour_finite() {
     let values = sampled(&grid, |p| if hole(p) { f32::NAN } else { p.x as f32 });
     let count = values.iter().filter(|value| value.is_nan()).count();
     let volume = spawn_volume(&mut world, grid, values, contour(8.0));
+    keep_colors(&mut world);
     prepare(&mut world);
     let opacity = world.get::<&Opacity>(volume).unwrap();
     let colors = world.get::<&LitColors>(volume).unwrap();

@@ -6,9 +6,10 @@ mod stages;
 mod thrift;
 
 use gelray::components::{
-    Classify, Color, Contour, Form, Light, Material, Name, OpacityUnit, Order, Sampling, TexelKind,
-    Toward, View,
+    Classify, Color, Contour, Form, Light, Material, Matte, Name, OpacityUnit, Order, Sampling,
+    Surface, TexelKind, Toward, View, Voxelize,
 };
+use gelray::polygon::face::{Face, Faces};
 use gelray::schedule::{Ran, Schedule, Watch};
 use gelray::shared::Shared;
 use gelray::systems::JOBS;
@@ -70,6 +71,14 @@ fn spawn_view(world: &mut World, grid: &Grid) -> Entity {
     let view = View { size: [16, 16], ..View::default() };
     let sampling = Sampling { texel: TexelKind::F32, ..Sampling::default() };
     world.spawn((Name("view".into()), Order(9), view, sampling, extent))
+}
+
+/// A polygon that is scan-converted, far from everything: colors of voxels are kept for those that it might be matted with.
+fn keep_colors(world: &mut World) -> Entity {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 1e4));
+    let faces = Faces(vec![Face::new(vec![corners.to_vec()]).unwrap()].into());
+    let voxelize = Voxelize { matte: Matte::Over, calibrated: true };
+    world.spawn((Name("far".into()), Order(8), faces, Surface::default(), voxelize))
 }
 
 /// The texel of a voxel; zero where nothing is stored.

@@ -11,7 +11,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use hecs::World;
 use proptest::prelude::*;
 
-use super::{prepare, spawn_volume, voxels};
+use super::{keep_colors, prepare, spawn_volume, voxels};
 
 /// Values that vary little but for a part of them that is steep, so that some bricks are empty and some are not.
 fn lumps(grid: &Grid, seed: f64, height: f64) -> Vec<f32> {
@@ -73,6 +73,7 @@ proptest! {
         if is_clipped {
             world.insert_one(volume, clip.clone()).unwrap();
         }
+        keep_colors(&mut world);
         prepare(&mut world);
         let (opacity, scalars) =
             (world.get::<&Opacity>(volume).unwrap(), world.get::<&Scalars>(volume).unwrap());

@@ -1,6 +1,10 @@
 //! Closed forms through the whole of preparation: balls, shadows, cuts and paint.
 
-use gelray::components::{CastsShadow, Clip, DepthCue, Material, Order, TexelKind, Toward};
+use std::ops::Deref;
+
+use gelray::components::{
+    CastsShadow, Clip, Color, Contour, DepthCue, Form, Material, Order, Sampling, TexelKind, Toward,
+};
 use gelray::light::strength::{LightStrength, Receding, VoxelStrength};
 use gelray::shared::Shared;
 use gelray::volume::bricks::Bricks;
@@ -11,8 +15,8 @@ use glam::{Vec3, Vec4};
 use hecs::{Entity, World};
 
 use super::{
-    Ball, RADIUS, ball, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume, texel,
-    voxels,
+    Ball, RADIUS, ball, contour, keep_colors, prepare, sampled, spawn_light, spawn_view,
+    spawn_volume, texel, voxels,
 };
 
 /// A light's strengths in one volume.
@@ -24,6 +28,7 @@ fn lit(volume: Entity, voxels: Bricks<u16>, full: f32) -> LightStrength {
 #[test]
 fn a_ball_is_a_shell_of_the_stated_thickness_lit_along_its_radii() {
     let Ball { mut world, volume, grid, .. } = ball();
+    keep_colors(&mut world);
     prepare(&mut world);
     let opacity = world.get::<&Opacity>(volume).unwrap();
     let colors = world.get::<&LitColors>(volume).unwrap();
@@ -54,6 +59,7 @@ fn a_one_sided_surface_is_lit_where_it_faces_the_light() {
     let Ball { mut world, volume, grid, .. } = ball();
     let material = Material { two_sided: false, ..Material::default() };
     world.insert_one(volume, material).unwrap();
+    keep_colors(&mut world);
     prepare(&mut world);
     let colors = world.get::<&LitColors>(volume).unwrap();
     let at = |z: usize| Vec3::from(colors.base.value([15, 15, z])).x;
@@ -85,6 +91,7 @@ fn the_strength_of_each_light_weakens_its_own_color_in_the_order_of_the_scene() 
     let side = spawn_light(&mut world, 4, Toward::Direction([1.0, 0.0, 0.0]));
     world.insert_one(light, CastsShadow::default()).unwrap();
     world.insert_one(side, CastsShadow::default()).unwrap();
+    keep_colors(&mut world);
     prepare(&mut world);
     let unshadowed = world.get::<&Gel>(volume).unwrap().lit.clone();
     let opacity = world.get::<&Opacity>(volume).unwrap().voxels.clone();
@@ -102,6 +109,52 @@ fn the_strength_of_each_light_weakens_its_own_color_in_the_order_of_the_scene() 
         assert!(lit.abs_diff_eq((base + above + 0.25 * side) * alpha, 1e-6), "{point}");
         let before = texel(&unshadowed, voxel).truncate();
         assert!(before.abs_diff_eq((base + above + side) * alpha, 1e-6));
+    }
+}
+
+#[test]
+fn voxels_lit_as_gel_is_made_are_those_of_colors_that_are_kept() {
+    let shapes = [Form::Above, Form::Around];
+    for (kind, form) in [TexelKind::F32, TexelKind::U16].into_iter().zip(shapes) {
+        let Ball { mut world, volume, light, view, grid } = ball();
+        let red = Some(Color(Vec3::X));
+        let mut classify = contour(92.0);
+        classify.iso.push(Contour { color: red, form, ..contour(88.0).iso[0].clone() });
+        let clip = Clip { planes: vec![[0.6, 0.0, 0.8, 3.0]], r#box: None };
+        let shiny = Material { specular: 0.4, shininess: 7.5, ..Material::default() };
+        world.insert(volume, (classify, clip, shiny)).unwrap();
+        world.insert(view, (DepthCue { k1: 1.0, k2: 0.1 },)).unwrap();
+        world.get::<&mut Sampling>(view).unwrap().texel = kind;
+        let side = spawn_light(&mut world, 4, Toward::Direction([1.0, 0.3, 0.0]));
+        world.insert_one(side, CastsShadow::default()).unwrap();
+        spawn_light(&mut world, 5, Toward::Direction([-1.0, 0.3, 0.2]));
+        world.insert_one(light, CastsShadow::default()).unwrap();
+        prepare(&mut world);
+        let opacity = world.get::<&Opacity>(volume).unwrap().voxels.clone();
+        let part: Bricks<u16> = opacity.map(|place, _, made| {
+            place.voxels().for_each(|(at, voxel)| made[at] = (voxel[0] * 2000) as u16);
+        });
+        world.insert_one(side, lit(volume, part, 0.75)).unwrap();
+        prepare(&mut world);
+        assert!(world.get::<&LitColors>(volume).is_err(), "nobody asks for colors");
+        let at_once = world.get::<&Gel>(volume).unwrap().deref().clone();
+        keep_colors(&mut world);
+        prepare(&mut world);
+        let colors = world.get::<&LitColors>(volume).unwrap().deref().clone();
+        assert_eq!(colors.shadowed.len(), 2);
+        world.insert_one(volume, Composite(Layer { opacity, colors })).unwrap();
+        prepare(&mut world);
+        let kept = world.get::<&Gel>(volume).unwrap();
+        assert_eq!(kept.lit.kind(), kind);
+        // Whole numbers are parts of the brightest, which made colors tell more nearly.
+        let most = if kind == TexelKind::F32 { 0.0 } else { 2.0 / 65535.0 };
+        let gels = [(&at_once.lit, &kept.lit)];
+        let ambient = (at_once.ambient.as_ref().unwrap(), kept.ambient.as_ref().unwrap());
+        for (once, kept) in gels.into_iter().chain([ambient]) {
+            let differ = |voxel| (texel(once, voxel) - texel(kept, voxel)).abs().max_element();
+            assert!(voxels(&grid).all(|(voxel, _)| differ(voxel) <= most));
+            assert!(voxels(&grid).filter(|(voxel, _)| texel(kept, *voxel).x > 0.0).count() > 1000);
+        }
     }
 }
 

@@ -77,7 +77,7 @@ animate = { tracks = [{ key = "view.azimuth", to = [0, 90], ease = "smooth" }] }
     place.write("moving.toml", scene);
     let ran = place.done("animate moving.toml -o m.#.png --frames 0..4x1 -v");
     let lines: Vec<_> = ran.err.lines().filter(|line| line.starts_with("frame ")).collect();
-    assert!(lines[1].contains("shade, relight") && !lines[1].contains("classify"), "{}", ran.err);
+    assert!(lines[1].contains("relight, cast") && !lines[1].contains("classify"), "{}", ran.err);
     assert!(lines[4].ends_with("s, cast, resample ran"), "{}", ran.err);
     place.done(
         "render moving.toml -o a.png --set eye.view.azimuth=45 --set ball.material.color=[1,0,0]",

@@ -16,7 +16,7 @@ fn a_process_that_the_system_lets_have_little_memory_says_so() {
         let output = shell.current_dir(place.path("")).args(["-c", &script]).output().unwrap();
         (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
-    for kilobytes in [60_000, 100_000, 140_000] {
+    for kilobytes in [60_000, 95_000, 125_000] {
         let (code, said) = tried(kilobytes, "render head -t 2 -q -o a.png");
         assert_eq!(code, Some(1), "{kilobytes}: {said}");
         assert!(said.contains("ulimit") && said.lines().count() == 1, "{kilobytes}: {said}");

@@ -37,7 +37,7 @@ fn a_plan_of_two_volumes_names_what_runs_for_which_and_bounds_what_it_takes() {
     place.write("small.nrrd", small_nrrd());
     place.write("two.toml", TWO);
     let plan = place.done("plan two.toml").out;
-    for system in ["ranges", "classify", "shade", "relight", "pyramid"] {
+    for system in ["ranges", "classify", "relight", "pyramid"] {
         let (runs, bytes, line) = row(&plan, system);
         assert!(runs && bytes > 0 && line.contains("ball, block"), "{line}");
     }

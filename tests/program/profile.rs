@@ -49,11 +49,11 @@ fn the_stages_make_up_the_run_and_stand_beside_the_paper() {
     parts.sort_by(f64::total_cmp);
     assert!(parts[2] > 0.97 && parts[4] <= 1.0, "{parts:?}");
     let stage = |name: &str| stages.iter().find(|stage| stage["name"] == name).unwrap();
-    for name in ["load", "classify", "shade", "light_sweep", "relight", "pyramid", "cast", "encode"]
-    {
+    for name in ["load", "classify", "light_sweep", "relight", "pyramid", "cast", "encode"] {
         assert!(stage(name)["median"].as_f64() > Some(0.0), "{name}");
     }
     assert_eq!(stage("classify")["paper_seconds"], 60.0);
+    assert_eq!(stage("relight")["paper_seconds"], 60.0);
     assert_eq!(profile["frame"]["paper_what"], "polygons traced");
     assert!(stage("cast")["counts"]["rays"].as_u64() > Some(0));
     assert!(stage("relight")["bytes"].as_u64() > Some(0));

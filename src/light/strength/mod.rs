@@ -14,7 +14,7 @@ use glam::DVec3;
 use hecs::Entity;
 
 use crate::schedule::Product;
-use crate::volume::bricks::Bricks;
+use crate::volume::bricks::{Bricks, EDGE};
 pub use buffer::Buffer;
 pub use falloff::Falloff;
 pub use receding::Receding;
@@ -57,6 +57,15 @@ impl VoxelStrength {
     pub fn beta(&self, kept: u16, voxel: [usize; 3]) -> f32 {
         let through = f32::from(kept) / 65535.0 * self.full;
         (f64::from(through) / self.receding.divisor(voxel)) as f32
+    }
+
+    /// β of the eight voxels of a brick's row, y before z: 0 where nothing is stored.
+    #[must_use]
+    pub(crate) fn row(&self, brick: [usize; 3], row: usize) -> [f32; EDGE] {
+        let Some(stored) = self.voxels.brick(brick) else { return [0.0; EDGE] };
+        let [x, y, z] = brick.map(|brick| brick * EDGE);
+        let [y, z] = [y + row % EDGE, z + row / EDGE];
+        std::array::from_fn(|at| self.beta(stored[row * EDGE + at], [x + at, y, z]))
     }
 }
 

@@ -1,0 +1,82 @@
+//! What the voxels of a layer send, all lights together: `c_T = Σ c_i β_i` (equation 4).
+
+use rayon::prelude::*;
+
+use crate::light::lit_bricks::{LitBricks, Rows, add};
+use crate::light::strength::VoxelStrength;
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
+
+/// Colors of the interesting voxels of a layer, and what weakens them.
+#[derive(Debug)]
+pub(crate) enum Sent<'a> {
+    /// Colors that are made, as of a composite.
+    Made {
+        /// What no shadow weakens.
+        base: &'a Bricks<[f32; 3]>,
+        /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
+        shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
+    },
+    /// Colors that nobody else asks for.
+    Lit(Box<LitBricks<'a>>),
+}
+
+impl Sent<'_> {
+    /// Fills in `c_T` of a brick, of the rows in which an opacity `alpha` is above 0.
+    pub fn fill(&self, place: BrickPlace, alpha: &[f32; VOXELS], sent: &mut Rows) {
+        match self {
+            Self::Lit(lights) => lights.fill(place, alpha, sent),
+            Self::Made { base, shadowed } => {
+                let brick = place.brick;
+                if let Some(base) = base.brick(brick) {
+                    for (row, sent) in sent.iter_mut().enumerate() {
+                        *sent = channels(base, row);
+                    }
+                }
+                for (light, strength) in shadowed {
+                    let Some(light) = light.brick(brick) else { continue };
+                    for (row, sent) in sent.iter_mut().enumerate() {
+                        let betas = strength.map_or([1.0; EDGE], |s| s.row(brick, row));
+                        add(sent, &channels(light, row), betas);
+                    }
+                }
+            }
+        }
+    }
+
+    /// What no channel of `c_T` is above, of a layer in which `opacity` is stored.
+    #[must_use]
+    pub fn brightest(&self, opacity: &Bricks<f32>) -> f32 {
+        let (base, shadowed) = match self {
+            Self::Lit(lights) => return lights.brightest(),
+            Self::Made { base, shadowed } => (base, shadowed),
+        };
+        let bricks: Vec<_> = opacity.stored().map(|(place, _)| place).collect();
+        let most = |place: &BrickPlace| {
+            let channel =
+                |bricks: &Bricks<[f32; 3]>| bricks.brick(place.brick).map_or(0.0, brightest);
+            let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, VoxelStrength::most);
+            let shadowed = shadowed.iter();
+            let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
+            channel(base) + shadowed
+        };
+        bricks.par_iter().map(most).reduce(|| 0.0, f32::max)
+    }
+}
+
+/// A row of colors, channel by channel.
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#[inline(always)]
+fn channels(colors: &[[f32; 3]; VOXELS], row: usize) -> [[f32; EDGE]; 3] {
+    let colors = &colors.as_chunks::<EDGE>().0[row];
+    std::array::from_fn(|channel| std::array::from_fn(|at| colors[at][channel]))
+}
+
+/// The greatest channel of a brick's colours, at least 0.
+fn brightest(colors: &[[f32; 3]; VOXELS]) -> f32 {
+    // Eight at a time, so that they are compared in lanes.
+    let eights = colors.as_flattened().chunks_exact(8);
+    let most = eights.fold([0.0; 8], |most: [f32; 8], eight| {
+        std::array::from_fn(|i| if eight[i] > most[i] { eight[i] } else { most[i] })
+    });
+    most.into_iter().fold(0.0, f32::max)
+}
