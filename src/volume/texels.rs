@@ -112,11 +112,9 @@ impl<T: Texel> Texels<T> {
         // Filled where they stay: zeros come from the system for nothing, and a copy of what is made would cost as much again.
         let (mut texels, level) = (vec![T::default(); (stored.len() + 1) * TEXELS], Level::new());
         let full = if T::SCALE < 1.0 { made_of.brightest() } else { 1.0 };
-        let places = texels.as_chunks_mut::<TEXELS>().0.par_iter_mut().zip(&stored);
-        places.for_each(|(texels, &brick)| {
+        apron::fill(counts, &table, &stored, texels.as_chunks_mut().0, |texels, brick| {
             dispatch!(level, simd => made_of.fill(simd, (size, brick), full, texels));
         });
-        apron::fill(counts, &table, &stored, texels.as_chunks_mut().0);
         let scale = Vec3::splat(T::SCALE * full).extend(T::SCALE);
         Self(Arc::new(Stored { counts, table, scale, texels }))
     }

@@ -1,7 +1,7 @@
 //! The aprons of bricks: the ninth texel of each row, column and pillar is the next brick's first.
 //!
-//! What a brick gives to others is its three first faces. They are set apart layer by layer of bricks, so that all bricks of a
-//! layer are read and written side by side.
+//! What a brick gives to others is its three first faces. They are set apart as it is filled, layer by layer of bricks, while it
+//! is near; then all bricks of the layer before are completed side by side.
 
 use std::ops::Range;
 
@@ -47,25 +47,31 @@ impl<T: Texel> Faces<T> {
     }
 }
 
-/// Fills the aprons of bricks, x fastest, that `table` gives the numbers of on a grid of `counts` bricks; what is not stored is
-/// clear.
+/// Fills bricks, x fastest, that `table` gives the numbers of on a grid of `counts` bricks: their own texels by `fill`, which
+/// gets them clear, and then their aprons; what is not stored is clear.
 pub(super) fn fill<T: Texel>(
     counts: [usize; 3],
     table: &[u32],
     stored: &[[usize; 3]],
     bricks: &mut [[T; TEXELS]],
+    fill: impl Fn(&mut [T; TEXELS], [usize; 3]) + Sync,
 ) {
     let [nx, ny, nz] = counts;
     let layer = |z: usize| -> Range<usize> {
         stored.partition_point(|brick| brick[2] < z)..stored.partition_point(|brick| brick[2] <= z)
     };
-    let faces = |bricks: &[[T; TEXELS]]| -> Vec<Faces<T>> {
-        bricks.par_iter().with_min_len(32).map(Faces::of).collect()
+    let own_texels = |bricks: &mut [[T; TEXELS]], places: Range<usize>| -> Vec<Faces<T>> {
+        let bricks = bricks[places.clone()].par_iter_mut().zip(&stored[places]);
+        let filled = bricks.map(|(texels, brick)| {
+            fill(texels, *brick);
+            Faces::of(texels)
+        });
+        filled.collect()
     };
-    let mut own = faces(&bricks[layer(0)]);
+    let mut own = own_texels(bricks, layer(0));
     for z in 0..nz {
         let (here, above) = (layer(z), layer(z + 1));
-        let next = faces(&bricks[above.clone()]);
+        let next = own_texels(bricks, above.clone());
         let after = |[x, y, _]: [usize; 3], [by_x, by_y, by_z]: [bool; 3]| {
             let (x, y) = (x + usize::from(by_x), y + usize::from(by_y));
             let entry = (x < nx && y < ny && z + usize::from(by_z) < nz)
