@@ -8,6 +8,7 @@ pub mod lettering;
 pub mod observer;
 pub mod overlay;
 pub mod picture;
+mod powers;
 pub mod ray;
 pub mod resampling;
 pub mod samples;

@@ -11,6 +11,7 @@ use super::kernel;
 use super::lanes::{LANES, Lanes, Packet};
 use super::media::{Media, slab};
 use super::shaft::Dust;
+use super::thick::Thick;
 use super::window::{Cells, SAMPLES, Sight, Window};
 use crate::view::camera::Camera;
 use crate::view::ray::Ray;
@@ -98,6 +99,8 @@ pub(crate) struct Entered {
     pub seen: [Vec4; LANES],
     /// The slab's thickness along each ray against the opacity unit.
     ratios: [f64; LANES],
+    /// Slabs so thick of what was seen last, where that takes powers; `None` where it takes none.
+    thick: Option<Thick>,
     /// What rays cross.
     crossings: Crossings,
     packet: Option<Packet>,
@@ -216,6 +219,7 @@ impl<S: Source> Media for Medium<'_, S> {
                 if (ratio - 1.0).abs() < 1e-12 { 1.0 } else { ratio }
             });
         }
+        entered.thick = Thick::needed(&entered.ratios).filter(|_| self.dust.is_none());
         entered.tile.some
     }
 
@@ -271,9 +275,12 @@ impl<S: Source> Media for Medium<'_, S> {
             counts.packet_steps += 1;
             self.held(&entered.tile, k) & lanes
         };
-        let Entered { tile, seen, ratios, crossings, window, .. } = entered;
+        let Entered { tile, seen, ratios, crossings, window, thick, .. } = entered;
         let shared = (&*tile, &*window);
         let met = self.source.meet(simd, fade, shared, (k, there), (seen, ratios, crossings));
+        if let Some(thick) = thick {
+            thick.fill(seen, ratios);
+        }
         counts.samples += u64::from(met.count_ones());
         counts.cells_skipped += u64::from((there & !met).count_ones());
         met
@@ -282,9 +289,10 @@ impl<S: Source> Media for Medium<'_, S> {
     #[inline]
     fn slab(&self, entered: &mut Entered, k: i64, lane: usize) -> (DVec3, f64) {
         let sample = entered.seen[lane];
-        match self.dust {
-            Some(dust) => self.dusty((dust, sample), entered, (lane, k)),
-            None => slab(sample, entered.ratios[lane]),
+        match (self.dust, &entered.thick) {
+            (Some(dust), _) => self.dusty((dust, sample), entered, (lane, k)),
+            (None, Some(thick)) => thick.slab(sample, lane),
+            (None, None) => slab(sample, entered.ratios[lane]),
         }
     }
 

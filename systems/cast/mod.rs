@@ -39,6 +39,7 @@ mod shaft;
 mod sought;
 mod targets;
 mod texture;
+mod thick;
 mod values;
 mod weight;
 mod window;
