@@ -4,12 +4,14 @@ mod choice;
 mod head;
 mod molecule;
 mod shapes;
+mod signal;
 mod simple;
 mod solid;
 mod textures;
 
 use crate::formats::Loaded;
 use choice::choose;
+pub use signal::marschner_lobb_at;
 pub use simple::ball;
 pub use textures::{TEXTURE_BYTES, is_texture, texture};
 
@@ -17,12 +19,13 @@ pub use textures::{TEXTURE_BYTES, is_texture, texture};
 type Maker = fn() -> Loaded;
 
 /// Every phantom: its name, its maker and how many voxels it has.
-const PHANTOMS: [(&str, (Maker, u64)); 5] = [
+const PHANTOMS: [(&str, (Maker, u64)); 6] = [
     ("head", (head::head, 256 * 256 * 113)),
     ("molecule", (molecule::molecule, 96 * 96 * 96)),
     ("ball", (|| simple::ball([64; 3], 24.0), 64 * 64 * 64)),
     ("slab", (simple::slab, 64 * 64 * 64)),
     ("ramp", (simple::ramp, 64 * 64 * 64)),
+    ("marschner_lobb", (signal::marschner_lobb, 40 * 40 * 40)),
 ];
 
 /// The names of all phantoms, as `phantom:NAME` takes them.
@@ -71,6 +74,7 @@ mod tests {
             ("ball", 0xcfee_2086_fc0a_cc25),
             ("slab", 0x1386_7599_6a12_2325),
             ("ramp", 0x5d03_9334_d672_e325),
+            ("marschner_lobb", 0xe167_ad7c_4229_9db5),
         ];
         assert!(names().eq(known.iter().map(|(name, _)| *name)));
         for threads in [1, 2] {
