@@ -75,10 +75,10 @@
 //! | `scene`, `formats` | [`grid::Scalars`] in the file's own number type, [`grid::Grid`] | a file, or a [`phantom`] made by formula |
 //! | `ranges` | between which scalars each brick lies, once a volume | [`ranges`] |
 //! | `classify` | α_V, in [`bricks`] stored only where something is interesting; no others are looked at that [`ranges`] rules out | [`gradients`], [`classification`], [`clipping`] |
-//! | `shade` | c_i, one for each shadowed light and one for all others | [`gradients`] again, [`shading`] |
+//! | `shade` | c_i, one for each shadowed light and one for all others, where polygons are matted with them | [`gradients`] again, [`shading`] |
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
-//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4) | `lit_layer`; [`painting`] for RGBA volumes |
+//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4); voxels are lit on the way where no colors are kept | `lit_layer`, [`shading`]; [`painting`] for RGBA volumes |
 //! | `pyramid` | which cells are interesting, and how far away the nearest is (§6) | [`pyramid`] |
 //!
 //! A volume that states `reconstruct = "values"` walks a shorter way: of it only `ranges` and `pyramid` are made, the bits of
@@ -137,18 +137,20 @@
 //!   looked up at four samples at once in the bits of the cells; a bit a cell for what is near it, for all rays of a packet,
 //!   was no faster.
 //! - **Opacity is per unit of thickness.** A voxel's opacity is that of a slab one opacity unit thick; a sample stands for
-//!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture.
+//!   one of thickness Δ ([`composite::thicken`]). A change of Δ changes the accuracy and not the picture. The powers that this
+//!   takes are made of sums, products and quotients alone, alike on every machine, for sixteen rays side by side.
 //! - **Values may be interpolated in place of colors** (`reconstruct = "values"`, the better reconstruction of §8): scalars are
 //!   reconstructed by the view's `filter` and classified and shaded where they are sampled, by gradients of the same filter,
 //!   so that a picture which magnifies voxels stays sharp. A clip is then cut exactly, within the slab that it crosses.
 //!   Shadows are approximate in one thing: the sweep reads the opacities of voxels, classified alike, and interpolates those.
-//!   Colors stay the default, by measurement (`benches/sharp.rs`): values are nearer to the truth by 1.6 to 1.9 dB, are edited
+//!   Colors stay the default, by measurement (`benches/sharp`): values are nearer to the truth by 1.6 to 1.9 dB, are edited
 //!   sooner, and of opaque surfaces cost half again as much a frame; but of gel that rays go through, under three lights with
 //!   shadows, a frame takes ten times as long. The paper's figures keep colors in any case.
 //! - **A contour of thickness 0 is a surface** of values: where a ray crosses it is found within the slab, so that it is as
 //!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before it or behind it, as it does; of several surfaces in one
 //!   slab that a polygon cuts, all count as where the first is. Its edges ask for rays as those of polygons do: C_A sees it lit, and C_G its normal in place of a color, so that there are
-//!   more than one a pixel where it ends or hides another part of itself, and not where it bends.
+//!   more than one a pixel where it ends or hides another part of itself, and not where it bends. One of what is above its value is
+//!   closed by flat faces where the volume is cut and where its grid ends, lit by their planes' normals.
 //! - **Slabs of values may be integrated** (`integrate`): a transfer function is taken as the scalar goes straight from a slab's
 //!   beginning to its sample and on to its end, piece by piece in closed form, so that a sharp one does not ask for short
 //!   steps: at one step a voxel it is off by a fifth to a thirtieth of what middles of slabs are. Shading stays that of the sample.

@@ -111,8 +111,9 @@ pub struct Contour<L = f32> {
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub opacity: f32,
-    /// r: thickness of the transition between opaque and clear, in voxels (world: r · opacity unit). 0 is a surface, of either
-    /// form, that is found between voxels, of a volume that states `reconstruct = "values"`.
+    /// r: thickness of the transition between opaque and clear, in voxels (world: r · opacity unit). 0 is a surface
+    /// that is found between voxels, of a volume that states `reconstruct = "values"`; of what is above, it is closed by flat
+    /// faces where the volume is clipped and where it ends.
     #[serde(default = "two")]
     #[schemars(range(min = 0.0))]
     pub thickness_voxels: f32,

@@ -28,7 +28,7 @@ use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, volumes};
 use gelled::Gelled;
 use traced::Traced;
-use valued::Valued;
+use valued::{Crossed, Valued};
 
 /// What a ray lets through where it has met something.
 const HALF: f64 = 0.5;
@@ -197,7 +197,7 @@ impl Scene {
     fn met_in_slab(&self, ray: &Ray, from: f64, clear: &mut f64) -> Option<Hit> {
         let (middle, way) = (ray.at(from + self.step / 2.0), ray.along * self.step);
         let (mut left, mut thickest) = (1.0, (0.0, None));
-        let mut surfaces: Vec<(f64, f64, &Volume)> = Vec::new();
+        let mut surfaces: Vec<(Crossed, &Volume)> = Vec::new();
         for volume in &self.volumes {
             let opacity = thicken(volume.opacity(middle, way), way.length() / volume.unit);
             left *= 1.0 - opacity;
@@ -206,29 +206,29 @@ impl Scene {
             }
             if let Asked::Values(values) = &volume.content {
                 let crossed = values.crossings(middle, way).into_iter();
-                surfaces.extend(crossed.map(|(part, opacity)| (part, opacity, volume)));
+                surfaces.extend(crossed.map(|crossed| (crossed, volume)));
             }
         }
-        surfaces.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let hit = |part: f64, volume: &Volume, at: DVec3| {
-            let normal = volume.slope(at).normalize_or_zero();
+        surfaces.sort_by(|a, b| a.0.part.total_cmp(&b.0.part));
+        let hit = |part: f64, volume: &Volume, at: DVec3, flat: Option<DVec3>| {
+            let normal = flat.unwrap_or_else(|| volume.slope(at).normalize_or_zero());
             Hit { depth: from + self.step * part, normal, entity: volume.entity }
         };
         // Gel fills the slab evenly, before and behind each surface.
         let mut passed = 0.0;
-        for (part, surface) in surfaces.iter().map(|s| (s.0, Some(s))).chain([(1.0, None)]) {
+        for (part, surface) in surfaces.iter().map(|s| (s.0.part, Some(s))).chain([(1.0, None)]) {
             let before = *clear;
             *clear *= thin(left, part - passed);
             if *clear < HALF {
                 let within = (before / HALF).ln() / (before / clear.max(1e-9)).ln();
                 let part = passed + (part - passed) * within.clamp(0.0, 1.0);
-                return Some(hit(part, thickest.1?, middle));
+                return Some(hit(part, thickest.1?, middle, None));
             }
             passed = part;
-            if let Some((_, opacity, volume)) = surface {
-                *clear *= 1.0 - opacity;
+            if let Some((crossed, volume)) = surface {
+                *clear *= 1.0 - crossed.opacity;
                 if *clear < HALF {
-                    return Some(hit(part, volume, middle + way * (part - 0.5)));
+                    return Some(hit(part, volume, middle + way * (part - 0.5), crossed.normal));
                 }
             }
         }

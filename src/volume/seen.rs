@@ -2,6 +2,7 @@
 //! are apart. Of what is ruled out, no place between the voxels has an opacity above 0.
 
 mod by_values;
+mod caps;
 
 use rayon::prelude::*;
 
@@ -55,13 +56,17 @@ impl Seen<'_> {
         let risen = self.risen();
         let of = |at: usize| {
             let brick = [at % counts[0], at / counts[0] % counts[1], at / (counts[0] * counts[1])];
-            if watch.check().is_err() || !self.may_show(&gradients, brick, counts) {
+            if watch.check().is_err() {
                 return None;
             }
-            let cells = with_scalars!(self.scalars, values => match &risen {
-                Some(risen) => self.cells_by_values(values, brick, risen),
-                None => self.cells(&gradients, values, brick),
-            });
+            let mut cells = self.caps(&gradients, brick, counts);
+            if self.may_show(&gradients, brick, counts) {
+                let own = with_scalars!(self.scalars, values => match &risen {
+                    Some(risen) => self.cells_by_values(values, brick, risen),
+                    None => self.cells(&gradients, values, brick),
+                });
+                cells.iter_mut().zip(own).for_each(|(cells, own)| *cells |= own);
+            }
             cells.iter().any(|word| *word != 0).then_some(cells)
         };
         let found: Vec<_> = (0..counts.iter().product()).into_par_iter().map(of).collect();
@@ -83,6 +88,12 @@ impl Seen<'_> {
         if self.cut.is_some_and(|cut| cut.left(first, extent) == Left::Nothing) {
             return false;
         }
+        let value = self.reached(brick, counts).map(|end| [end]);
+        self.shows(&self.bounds(gradients, first), &value, &value) == [1]
+    }
+
+    /// The least and the greatest scalar that the cells of a brick reach.
+    fn reached(&self, brick: [usize; 3], counts: [usize; 3]) -> [f32; 2] {
         let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
         for corner in 0..8_usize {
             let next = std::array::from_fn(|axis| {
@@ -91,8 +102,7 @@ impl Seen<'_> {
             let range = self.ranges.around(next);
             (low, high) = (low.min(range.low), high.max(range.high));
         }
-        let value = [[low], [high]];
-        self.shows(&self.bounds(gradients, first), &value, &value) == [1]
+        [low, high]
     }
 
     /// Voxels of a brick of cells, and those that its last cells share with the next.

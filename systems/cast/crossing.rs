@@ -108,6 +108,12 @@ impl Stretch {
         Self { from, to: std::array::from_fn(|axis| middle[axis] + half[axis]) }
     }
 
+    /// That between two places.
+    #[inline]
+    pub fn between(from: [i64; 3], to: [i64; 3]) -> Self {
+        Self { from, to }
+    }
+
     /// The fixed-point indices of its ends.
     #[inline]
     pub fn ends(&self) -> [[i64; 3]; 2] {

@@ -14,6 +14,7 @@ mod band;
 mod beams;
 mod bent;
 mod bundle;
+mod caps;
 mod caster;
 mod crossing;
 mod cue;

@@ -3,8 +3,9 @@
 mod look;
 
 use fearless_simd::{Level, Simd};
-use glam::{DAffine3, DVec3, Vec4};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
 
+use super::caps;
 use super::crossing::{self, CrossedSurface, Crossings, Sheet, Stretch, index, spot};
 use super::inputs::StatedValues;
 use super::integrated::{self, Ends};
@@ -90,8 +91,15 @@ impl<'a> Values<'a> {
         if PyramidSlices::reaching(reach).is_none() {
             return lanes;
         }
+        let reached = |lane: usize| {
+            if self.is_capped() {
+                caps::reached(tile, (lane, k), self.last())
+            } else {
+                Stretch::of(tile, lane, k)
+            }
+        };
         each(lanes)
-            .filter(|&lane| self.passes(pyramid, &Stretch::of(tile, lane, k)))
+            .filter(|&lane| self.passes(pyramid, &reached(lane)))
             .fold(0, |set, lane| set | 1 << lane)
     }
 
@@ -109,8 +117,57 @@ impl<'a> Values<'a> {
         pyramid.shows_any([sorted(0), sorted(1), sorted(2)])
     }
 
+    /// Whether some surfaces are closed where the grid ends and where it is cut.
+    fn is_capped(&self) -> bool {
+        self.surfaces.iter().any(|surface| surface.is_capped)
+    }
+
+    /// The grid's last voxel, fixed point.
+    fn last(&self) -> [i64; 3] {
+        self.size.map(|n| (n as i64 - 1) << FRACTION_BITS)
+    }
+
+    /// The flat faces that close surfaces at sample `k`, of those that a ray crosses there.
+    fn close(
+        &self,
+        (level, fade): (Level, f32),
+        tile: &Tile,
+        (lane, k): (usize, i64),
+        met: &mut Vec<CrossedSurface>,
+    ) {
+        let stretch = Stretch::of(tile, lane, k);
+        let world = |place: DVec3| self.index_to_world.transform_point3(place);
+        let to_world = self.index_to_world.matrix3.inverse().transpose();
+        let border = caps::at_border(tile, (lane, k), self.last(), &to_world);
+        let cut = self.cut.as_ref().map(|cut| caps::at_cut(cut, &stretch, world));
+        for cap in border.into_iter().chain(cut.into_iter().flatten()).flatten() {
+            let place = stretch.at(cap.part);
+            let at = world(index(place));
+            if self.cut.as_ref().is_some_and(|cut| cut.at(at).inside < 0.0) {
+                continue;
+            }
+            let mut value = [0.0];
+            self.field.values(level, &[spot(place)], &mut value);
+            for surface in self.surfaces.iter().filter(|s| s.is_capped && value[0] >= s.value) {
+                met.push(self.crossed(surface, (cap.part, cap.normal, at), fade));
+            }
+        }
+    }
+
+    /// A surface as it looks at a part of a stretch, by its normal and the world point there.
+    fn crossed(
+        &self,
+        surface: &SharpContour,
+        (part, normal, world): (f64, Vec3, DVec3),
+        fade: f32,
+    ) -> CrossedSurface {
+        let reflected = self.reflected(surface.color, normal, world);
+        let color = surface.color * self.how.ambient + reflected * fade;
+        CrossedSurface { part, color, opacity: surface.opacity, normal }
+    }
+
     /// Puts the surfaces that a ray crosses within a slab into what it sees there, and hands them out; the values are those at
-    /// its beginning, its sample and its end.
+    /// its beginning, its sample and its end. Some may be met already.
     fn cross(
         &self,
         level: Level,
@@ -119,7 +176,6 @@ impl<'a> Values<'a> {
         (seen, ratio, met): (&mut Vec4, f64, &mut Vec<CrossedSurface>),
     ) -> Sheet {
         let values = [(0.0, front), (0.5, middle), (1.0, back)];
-        met.clear();
         for surface in &self.surfaces {
             for half in values.windows(2) {
                 let field = (&self.field, level);
@@ -131,10 +187,8 @@ impl<'a> Values<'a> {
                 let place = index(stretch.at(part));
                 let world = self.index_to_world.transform_point3(place);
                 if self.cut.as_ref().is_none_or(|cut| cut.at(world).inside >= 0.0) {
-                    let normal = normal(sampled.gradient);
-                    let reflected = self.reflected(surface.color, normal, world);
-                    let color = surface.color * self.how.ambient + reflected * fade;
-                    met.push(CrossedSurface { part, color, opacity: surface.opacity, normal });
+                    let there = (part, normal(sampled.gradient), world);
+                    met.push(self.crossed(surface, there, fade));
                 }
             }
         }
@@ -153,7 +207,9 @@ impl Source for Values<'_> {
     }
 
     fn reach(&self, tile: &Tile) -> f64 {
-        if self.looks_around { crossing::reach(tile) } else { 0.0 }
+        // To where the grid ends it may be a whole step.
+        let steps = if self.is_capped() { 2.0 } else { 1.0 };
+        if self.looks_around { steps * crossing::reach(tile) } else { 0.0 }
     }
 
     fn cells(&self, reach: f64) -> Option<Cells<'_>> {
@@ -212,6 +268,10 @@ impl Source for Values<'_> {
             for (lane, sampled) in each(met).zip(&sampled) {
                 let stretch = Stretch::of(tile, lane, k);
                 crossings.bare[lane] = seen[lane];
+                crossings.met.clear();
+                if self.is_capped() {
+                    self.close((level, fade), tile, (lane, k), &mut crossings.met);
+                }
                 let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
                 let values = [slabs[lane][0], sampled.value, slabs[lane][1]];
                 crossings.sheets[lane] = self.cross(level, fade, (&stretch, values), slab);

@@ -1,6 +1,7 @@
 //! Volumes whose values are interpolated: what is skipped is empty, what is asked again is made again, what is seen is there.
 
 mod agreement;
+mod closed;
 mod convergence;
 mod integrated;
 mod lossless;

@@ -110,7 +110,8 @@ fn a_polygon_in_a_surface_is_before_it_or_behind_it_at_every_pixel() {
     let (white, half) = (glam::Vec3::ONE, 0.5);
     for (step, filter) in [(0.5, Filter::Linear), (2.0, Filter::Linear), (3.0, Filter::Cubic)] {
         let field = |at: glam::DVec3| (20.0 + at.y - of_surface(at.x, at.z)) as f32;
-        let contour = Contour { thickness_voxels: 0.0, opacity: half, ..Contour::at(20.0) };
+        let form = Form::Around;
+        let contour = Contour { thickness_voxels: 0.0, opacity: half, form, ..Contour::at(20.0) };
         let classify = Classify { iso: vec![contour], ..Classify::default() };
         let view = View { size: [90, 90], height_mm: Some(20.0), ..View::default() };
         let (coarsest, finest, distance_mm) = (4, 4, Some(step));

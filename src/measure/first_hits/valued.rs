@@ -14,6 +14,16 @@ use crate::volume::pyramid::{BLOCK, Pyramid};
 /// Halvings of a stretch that holds a crossing.
 const HALVINGS: usize = 16;
 
+/// A surface that a stretch crosses.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossed {
+    /// The part of the stretch before it, 0..=1.
+    pub part: f64,
+    pub opacity: f64,
+    /// Its unit normal, world, where it is not that of the values.
+    pub normal: Option<DVec3>,
+}
+
 /// The values of a volume, and what is seen of them.
 pub(super) struct Valued {
     /// What is interpolated, and how.
@@ -90,41 +100,60 @@ impl Valued {
         Some(-libm::expm1(-depth))
     }
 
-    /// The surfaces without thickness that a stretch around a world point crosses: which part of it lies before each, and its
-    /// opacity, the nearest first.
-    pub fn crossings(&self, middle: DVec3, way: DVec3) -> Vec<(f64, f64)> {
+    /// The surfaces without thickness that a stretch around a world point crosses, the nearest first.
+    pub fn crossings(&self, middle: DVec3, way: DVec3) -> Vec<Crossed> {
         if self.surfaces.is_empty() || !self.may_show(middle, Some(way)) {
             return Vec::new();
         }
-        let value = |part: f64| {
-            let sampled = self.sampled(middle + way * (part - 0.5));
-            sampled.map_or(f32::NAN, |sampled| sampled.value)
-        };
-        let parts = [0.0, 0.5, 1.0].map(|part| (part, value(part)));
+        let at = |part: f64| middle + way * (part - 0.5);
         let mut found = Vec::new();
         for surface in &self.surfaces {
-            for half in parts.windows(2) {
-                let above = |value: f32| value >= surface.value;
-                let ([mut low, mut high], [first, last]) =
-                    ([half[0].0, half[1].0], [half[0].1, half[1].1]);
-                if first.is_nan() || last.is_nan() || above(first) == above(last) {
+            for [mut low, mut high] in [[0.0, 0.5], [0.5, 1.0]] {
+                let first = self.side(surface, at(low));
+                if first.is_none_or(|first| self.side(surface, at(high)).is_none_or(|s| s == first))
+                {
                     continue;
                 }
                 for _ in 0..HALVINGS {
                     let part = f64::midpoint(low, high);
-                    let side =
-                        if above(value(part)) == above(first) { &mut low } else { &mut high };
-                    *side = part;
+                    let same = self.side(surface, at(part)) == first;
+                    *(if same { &mut low } else { &mut high }) = part;
                 }
                 let part = f64::midpoint(low, high);
-                let world = middle + way * (part - 0.5);
-                if self.cut.as_ref().is_none_or(|cut| cut.at(world).inside >= 0.0) {
-                    found.push((part, f64::from(surface.opacity)));
+                let out = at(if first == Some(true) { high } else { low });
+                let left = self.cut.as_ref().is_none_or(|cut| cut.at(at(part)).inside >= 0.0);
+                if surface.is_capped || left {
+                    let normal = if surface.is_capped { self.face(out) } else { None };
+                    found.push(Crossed { part, opacity: f64::from(surface.opacity), normal });
                 }
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.sort_by(|a, b| a.part.total_cmp(&b.part));
         found
+    }
+
+    /// Whether a world point is above a surface's value; `None` where there is none. Of a surface that is closed nothing is above
+    /// outside of the grid and where the volume is cut away.
+    fn side(&self, surface: &SharpContour, world: DVec3) -> Option<bool> {
+        let value =
+            self.sampled(world).map(|sampled| sampled.value).filter(|value| !value.is_nan());
+        if !surface.is_capped {
+            return value.map(|value| value >= surface.value);
+        }
+        let left = || self.cut.as_ref().is_none_or(|cut| cut.at(world).inside >= 0.0);
+        Some(value.is_some_and(|value| value >= surface.value) && left())
+    }
+
+    /// The normal of the flat face that a point just outside of a closed surface lies before; `None` before the surface itself.
+    fn face(&self, out: DVec3) -> Option<DVec3> {
+        let index = self.to_index.transform_point3(out);
+        let last = DVec3::from(self.grid.size.map(|n| n as f64 - 1.0));
+        let beyond = index - index.clamp(DVec3::ZERO, last);
+        if beyond != DVec3::ZERO {
+            return Some((self.to_index.matrix3.transpose() * beyond).normalize_or_zero());
+        }
+        let section = self.cut.as_ref().map(|cut| cut.at(out));
+        section.filter(|section| section.inside < 0.0).map(|section| section.normal)
     }
 
     /// Where values fall, world: minus their gradient.

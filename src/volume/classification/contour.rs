@@ -19,6 +19,8 @@ pub(super) struct Line {
     /// r² in world units.
     pub squared_reach: f64,
     pub form: Form,
+    /// Of a surface, whether it bounds what is above it.
+    is_capped: bool,
     color: DVec3,
 }
 
@@ -57,6 +59,8 @@ pub struct SharpContour {
     pub opacity: f32,
     /// Linear.
     pub color: Vec3,
+    /// Whether it bounds what is above, and so is closed where the grid ends and where it is cut.
+    pub is_capped: bool,
 }
 
 impl Contours {
@@ -70,6 +74,7 @@ impl Contours {
             value: line.value as f32,
             opacity: line.opacity as f32,
             color: line.color.as_vec3(),
+            is_capped: line.is_capped,
         };
         self.0.iter().filter(|line| line.is_surface() && line.opacity > 0.0).map(surface).collect()
     }
@@ -89,6 +94,7 @@ impl Contours {
                 squared_reach: reach * reach,
                 // What has no thickness is around its value alone.
                 form: if reach == 0.0 { Form::Around } else { contour.form },
+                is_capped: reach == 0.0 && contour.form == Form::Above,
                 color: contour.color.map_or(color, |Color(own)| own.as_dvec3()),
             }
         };
