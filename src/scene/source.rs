@@ -9,7 +9,7 @@ use crate::error::SceneError;
 use crate::formats::{Loaded, Stated, is_volume};
 
 /// The scenes that are part of the program, by name; the first is rendered where none is named.
-pub static EMBEDDED: [(&str, &str); 20] = [
+pub static EMBEDDED: [(&str, &str); 21] = [
     ("head", include_str!("../../scenes/head.toml")),
     ("minimal_1", include_str!("../../scenes/minimal_1.toml")),
     ("minimal_2", include_str!("../../scenes/minimal_2.toml")),
@@ -28,6 +28,7 @@ pub static EMBEDDED: [(&str, &str); 20] = [
     ("figure_11", include_str!("../../scenes/figure_11.toml")),
     ("figure_12", include_str!("../../scenes/figure_12.toml")),
     ("shaft", include_str!("../../scenes/shaft.toml")),
+    ("sharp", include_str!("../../scenes/sharp.toml")),
     ("annotated", include_str!("../../scenes/annotated.toml")),
     ("keyframes", include_str!("../../scenes/keyframes.toml")),
 ];

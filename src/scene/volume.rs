@@ -168,11 +168,12 @@ fn placed(
 /// Puts scalars on the entity, with the classification in numbers if one is stated.
 fn classified(loading: &mut Loading, entry: usize, scalars: Scalars) -> Result<(), Error> {
     let projected = loading.get::<Projection>(entry).is_some();
+    let reconstruct = loading.get::<Reconstruct>(entry).unwrap_or_default();
     if let Some(problem) = scalars.lost_digits() {
         loading.warn(entry, problem);
     }
     if let Some(stated) = loading.get::<Classify<Level>>(entry) {
-        let classify = match named::classification(&stated, &scalars, projected) {
+        let classify = match named::classification(&stated, &scalars, (projected, reconstruct)) {
             Some((made, said)) => {
                 if let Some(said) = said {
                     loading.warn(entry, said);

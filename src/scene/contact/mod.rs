@@ -56,6 +56,8 @@ impl Wish {
 struct Look {
     /// The line of its classification, or nothing for one that is painted.
     classify: String,
+    /// Whether it is an opaque surface: then it is found between voxels, and is sharp however much it is magnified.
+    sharp: bool,
     /// The least value that is seen; `None` where all of it is.
     seen_from: Option<f32>,
     /// What it is taken for, and so drawn as: a sentence without a subject.
@@ -92,6 +94,7 @@ fn look(loaded: &Loaded, found: &Survey, wish: &Wish) -> Look {
         Voxels::Painted(_) => {
             return Look {
                 classify: String::new(),
+                sharp: false,
                 seen_from: None,
                 said: "RGBA, classified and shaded already; drawn as it is".to_owned(),
             };
@@ -150,7 +153,10 @@ fn guessed(scalars: &Scalars, found: &Survey) -> Look {
 /// An opaque surface.
 fn surface(value: f32, said: String) -> Look {
     Look {
-        classify: format!("classify = {{ iso = [{{ value = {value:?} }}] }}\n"),
+        classify: format!(
+            "classify = {{ iso = [{{ value = {value:?}, thickness_voxels = 0 }}] }}\n"
+        ),
+        sharp: true,
         seen_from: Some(value),
         said,
     }
@@ -159,6 +165,7 @@ fn surface(value: f32, said: String) -> Look {
 fn named(preset: Preset, scalars: &Scalars, said: String) -> Look {
     Look {
         classify: format!("classify = {{ preset = \"{}\" }}\n", preset.name()),
+        sharp: matches!(preset, Preset::CtSkin | Preset::Density),
         seen_from: super::named::least_seen(preset, scalars),
         said,
     }
@@ -175,7 +182,14 @@ fn text(path: &Path, loaded: &Loaded, look: &Look, wish: &Wish) -> String {
         stated.map_or(String::new(), |number| format!(", {key} = {number}"))
     };
     let which = choice("channel", wish.channel) + &choice("time", wish.time);
-    let _ = write!(text, "[[entity]]\nname = \"volume\"\nvolume = {{ file = {quoted}{which} }}\n");
+    let how = if look.sharp { ", reconstruct = \"values\"" } else { "" };
+    let _ = write!(
+        text,
+        "[[entity]]
+name = \"volume\"
+volume = {{ file = {quoted}{which}{how} }}
+"
+    );
     if !look.classify.is_empty() {
         text += &look.classify;
         text += "material = { color = \"#efe6d8\", ambient = 0.06, diffuse = 0.86, specular = 0.12, shininess = 24 }\n";

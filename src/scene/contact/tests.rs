@@ -43,6 +43,10 @@ fn a_wish_goes_before_the_guess() {
     let iso = Wish { iso: Some(300.0), size: Some([80, 40]), ..Wish::default() };
     let (source, _) = made("a.nrrd", &bytes, &iso);
     assert!(source.text.contains("value = 300.0") && source.text.contains("size = [80, 40]"));
+    // A surface is found between voxels.
+    for sharp in ["reconstruct = \"values\"", "thickness_voxels = 0"] {
+        assert!(source.text.contains(sharp), "{}", source.text);
+    }
     let skin = Wish { preset: Some(Preset::CtSkin), ..Wish::default() };
     let (source, said) = made("a.nrrd", &bytes, &skin);
     assert!(source.text.contains("preset = \"ct-skin\"") && said.contains("as asked for"));

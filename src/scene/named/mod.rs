@@ -2,7 +2,9 @@
 
 mod colormap;
 
-use crate::components::{Classify, Color, Contour, Level, Preset, Tissue, TransferPoint};
+use crate::components::{
+    Classify, Color, Contour, Level, Preset, Reconstruct, Tissue, TransferPoint,
+};
 use crate::measure::histogram::{Histogram, histogram};
 use crate::measure::sigma::sigma;
 use crate::volume::grid::Scalars;
@@ -14,11 +16,11 @@ const BINS: usize = 4096;
 pub(super) const SHIFT: f32 = 1024.0;
 
 /// The classification that a name stands for, and what was guessed; `None` where none is named. Colors of a projection
-/// are all as opaque as the last.
+/// are all as opaque as the last, and contours of values are surfaces.
 pub(super) fn classification(
     stated: &Classify<Level>,
     scalars: &Scalars,
-    projected: bool,
+    (projected, reconstruct): (bool, Reconstruct),
 ) -> Option<(Classify, Option<String>)> {
     if let Some(map) = stated.colormap {
         let counted = histogram(scalars, BINS);
@@ -34,7 +36,13 @@ pub(super) fn classification(
         }
         return Some((Classify { transfer: points, ..Classify::default() }, None));
     }
-    stated.preset.map(|preset| of_preset(preset, scalars))
+    stated.preset.map(|preset| {
+        let (mut made, said) = of_preset(preset, scalars);
+        if reconstruct == Reconstruct::Values {
+            made.iso.iter_mut().for_each(|contour| contour.thickness_voxels = 0.0);
+        }
+        (made, said)
+    })
 }
 
 /// The least value that a preset lets see in a volume.
@@ -216,7 +224,8 @@ mod tests {
     }
 
     fn named(stated: &Classify<Level>, values: Vec<f32>) -> (Classify, Option<String>) {
-        classification(stated, &Scalars::F32(Shared::new(values)), false).unwrap()
+        let how = (false, Reconstruct::Colors);
+        classification(stated, &Scalars::F32(Shared::new(values)), how).unwrap()
     }
 
     fn rising(classify: &Classify) -> bool {
@@ -229,6 +238,11 @@ mod tests {
         let skin = || preset(Preset::CtSkin);
         let (signed, said) = named(&skin(), vec![-1000.0, 40.0, 900.0]);
         assert_eq!((signed.iso[0].value, said), (-300.0, None));
+        let how = (false, Reconstruct::Values);
+        let voxels = Scalars::F32(Shared::new(vec![-1000.0, 40.0, 900.0]));
+        let (sharp, _) = classification(&skin(), &voxels, how).unwrap();
+        assert_eq!((sharp.iso[0].value, sharp.iso[0].thickness_voxels), (-300.0, 0.0));
+        assert!(signed.iso[0].thickness_voxels > 0.0);
         let (shifted, said) = named(&skin(), vec![0.0, 1064.0, 1924.0]);
         assert_eq!(shifted.iso[0].value, 724.0);
         assert!(said.unwrap().contains("1024"));
