@@ -35,8 +35,11 @@ impl Seen<'_> {
             if range.high < low || range.low > high {
                 continue;
             }
-            let not_below = self.marked(values, first, (range.low >= low, |v| v >= low));
-            let not_above = self.marked(values, first, (range.high <= high, |v| v <= high));
+            // The range does not tell of a NaN, which is neither.
+            let [all_above, all_below] =
+                [range.low >= low, range.high <= high].map(|all| all && !T::HAS_NAN);
+            let not_below = self.marked(values, first, (all_above, |v| v >= low));
+            let not_above = self.marked(values, first, (all_below, |v| v <= high));
             for (word, pair) in words.iter_mut().zip(not_below.into_iter().zip(not_above)) {
                 *word |= pair.0 & pair.1;
             }
