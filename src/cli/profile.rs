@@ -29,18 +29,8 @@ Examples:
 A run is whole: from the scene's file to the bytes of the picture's, with nothing kept of the run before. Of two, intervals
 hold for all rows together in 19 of 20 cases.";
 
-/// Flags that have a use here.
-pub const TAKES: &[&str] = &[
-    "--output",
-    "--size",
-    "--set",
-    "--iso",
-    "--preset",
-    "--channel",
-    "--time",
-    "--exact",
-    "--max-memory",
-];
+/// Flags that have a use here: those of a scene that is told about and not rendered.
+pub const TAKES: &[&str] = super::plan::TAKES;
 
 /// Runs of each where nothing is stated: of one scene, and of two that are compared.
 const REPEAT: [u32; 2] = [5, 20];
