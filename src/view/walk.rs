@@ -169,6 +169,13 @@ impl Tile {
         std::array::from_fn(|axis| self.place(axis, lane, k))
     }
 
+    /// Whether all rays are in the grid at `n` samples from `k` on, at the one before them and at the one after.
+    #[must_use]
+    #[inline]
+    pub(crate) fn is_inner(&self, k: i64, n: usize) -> bool {
+        self.all[0] < k && k + (n as i64) < self.all[1]
+    }
+
     /// Whether there is no sample at which a ray may be in the grid.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -53,7 +53,13 @@ pub fn at_border(
 
 /// Where a stretch crosses a cut, at most once in each half.
 pub fn at_cut(cut: &Cut, stretch: &Stretch, world: impl Fn(DVec3) -> DVec3) -> [Option<Cap>; 2] {
-    let at = |part: f64| cut.at(world(index(stretch.at(part))));
+    let place = |part: f64| world(index(stretch.at(part)));
+    let at = |part: f64| cut.at(place(part));
+    // No distance changes by more than the way.
+    let half = place(0.0).distance(place(1.0)) / 2.0;
+    if at(0.5).inside.abs() > half * (1.0 + 1e-6) {
+        return [None; 2];
+    }
     let inside = |part: f64| at(part).inside >= 0.0;
     [[0.0, 0.5], [0.5, 1.0]].map(|[mut a, mut b]| {
         let first = inside(a);

@@ -23,8 +23,8 @@ use crate::volume::pyramid::{BLOCK, PyramidSlices};
 /// What a volume is at samples: gel, or values that are classified there.
 pub trait Source: Sync {
     /// The cells in which alone it is met, if it is looked for as far from its samples as it [reaches](Self::reach); `None`:
-    /// anywhere.
-    fn cells(&self, reach: f64) -> Option<Cells<'_>>;
+    /// anywhere. `inner` are samples before and after which all rays are in the grid.
+    fn cells(&self, reach: f64, inner: bool) -> Option<Cells<'_>>;
 
     /// Which of `lanes` (all inside the grid, and in such cells) meet anything at sample `k`, and what: associated RGBA per
     /// opacity unit; of its reflected part `fade` is left, slabs are so many opacity units thick, and there is room for what
@@ -52,7 +52,7 @@ pub trait Source: Sync {
 
 impl<T: Texel> Source for kernel::GelSlices<'_, T> {
     #[inline]
-    fn cells(&self, _: f64) -> Option<Cells<'_>> {
+    fn cells(&self, _: f64, _: bool) -> Option<Cells<'_>> {
         Some(Self::cells(self))
     }
 
@@ -251,7 +251,8 @@ impl<S: Source> Media for Medium<'_, S> {
                 continue;
             }
             k = self.leap(entered, k, counts);
-            let Some(cells) = self.source.cells(entered.crossings.reach) else { break };
+            let inner = entered.tile.is_inner(k, SAMPLES);
+            let Some(cells) = self.source.cells(entered.crossings.reach, inner) else { break };
             if k < entered.tile.some[1] {
                 self.look(simd, (entered, cells), k, counts);
             }

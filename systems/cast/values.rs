@@ -3,7 +3,7 @@
 mod look;
 
 use fearless_simd::{Level, Simd};
-use glam::{DAffine3, DVec3, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
 
 use super::caps;
 use super::crossing::{self, CrossedSurface, Crossings, Sheet, Stretch, index, spot};
@@ -33,6 +33,8 @@ pub struct Values<'a> {
     /// Voxels on each axis.
     size: [usize; 3],
     index_to_world: DAffine3,
+    /// From normals in index space to those in the world.
+    to_world: DMat3,
     classifier: Classifier,
     /// Contours without thickness.
     surfaces: Vec<SharpContour>,
@@ -70,6 +72,7 @@ impl<'a> Values<'a> {
             pyramid,
             size: grid.size,
             index_to_world: grid.index_to_world,
+            to_world: grid.index_to_world.matrix3.inverse().transpose(),
             cut: clip.as_ref().map(|clip| Cut::new(clip, grid)),
             lamps,
             all_lamps: lamps.plain.iter().chain(lamps.shadowed.iter().map(|(_, l)| l)).collect(),
@@ -91,8 +94,9 @@ impl<'a> Values<'a> {
         if PyramidSlices::reaching(reach).is_none() {
             return lanes;
         }
+        let closed = self.is_capped() && !tile.is_inner(k, 1);
         let reached = |lane: usize| {
-            if self.is_capped() {
+            if closed {
                 caps::reached(tile, (lane, k), self.last())
             } else {
                 Stretch::of(tile, lane, k)
@@ -137,8 +141,11 @@ impl<'a> Values<'a> {
     ) {
         let stretch = Stretch::of(tile, lane, k);
         let world = |place: DVec3| self.index_to_world.transform_point3(place);
-        let to_world = self.index_to_world.matrix3.inverse().transpose();
-        let border = caps::at_border(tile, (lane, k), self.last(), &to_world);
+        let border = if tile.is_inner(k, 1) {
+            [None; 2]
+        } else {
+            caps::at_border(tile, (lane, k), self.last(), &self.to_world)
+        };
         let cut = self.cut.as_ref().map(|cut| caps::at_cut(cut, &stretch, world));
         for cap in border.into_iter().chain(cut.into_iter().flatten()).flatten() {
             let place = stretch.at(cap.part);
@@ -212,7 +219,8 @@ impl Source for Values<'_> {
         if self.looks_around { steps * crossing::reach(tile) } else { 0.0 }
     }
 
-    fn cells(&self, reach: f64) -> Option<Cells<'_>> {
+    fn cells(&self, reach: f64, inner: bool) -> Option<Cells<'_>> {
+        let reach = if inner && self.is_capped() { reach / 2.0 } else { reach };
         let pyramid = self.pyramid?;
         let counts = pyramid.bricks();
         if self.looks_around {
@@ -265,11 +273,12 @@ impl Source for Values<'_> {
             }
         }
         if !self.surfaces.is_empty() {
+            let capped = self.is_capped();
             for (lane, sampled) in each(met).zip(&sampled) {
                 let stretch = Stretch::of(tile, lane, k);
                 crossings.bare[lane] = seen[lane];
                 crossings.met.clear();
-                if self.is_capped() {
+                if capped && (self.cut.is_some() || !tile.is_inner(k, 1)) {
                     self.close((level, fade), tile, (lane, k), &mut crossings.met);
                 }
                 let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
