@@ -149,7 +149,11 @@ impl<'a> LitBricks<'a> {
             *lit = plain.sent(&colors, &normals);
             for light in &self.shadowed {
                 let alone = Lighting { ambient: 0.0, lamps: &[light.lamp], how: self.how };
-                add(lit, &alone.sent(&colors, &normals), light.betas(place.brick, row));
+                add(
+                    lit,
+                    &alone.sent(&colors, &normals),
+                    VoxelStrength::row(light.strength, place.brick, row),
+                );
             }
         }
     }
@@ -171,13 +175,6 @@ impl<'a> LitBricks<'a> {
             side_by_side::set(&mut colors, at, tinted);
         }
         colors
-    }
-}
-
-impl Shadowed<'_> {
-    /// β of the eight voxels of a row.
-    fn betas(&self, brick: [usize; 3], row: usize) -> [f32; EDGE] {
-        self.strength.map_or([1.0; EDGE], |strength| strength.row(brick, row))
     }
 }
 

@@ -53,13 +53,14 @@ impl Seen<'_> {
     pub fn pyramid(&self, watch: &Watch) -> Pyramid {
         let counts = self.grid.size.map(|n| n.div_ceil(EDGE));
         let gradients = Gradients::new(self.grid);
-        let risen = self.risen();
+        let (risen, closed) = (self.risen(), self.closed_from());
         let of = |at: usize| {
             let brick = [at % counts[0], at / counts[0] % counts[1], at / (counts[0] * counts[1])];
             if watch.check().is_err() {
                 return None;
             }
-            let mut cells = self.caps(&gradients, brick, counts);
+            let caps = closed.map(|least| self.caps(&gradients, (brick, counts), least));
+            let mut cells = caps.unwrap_or_default();
             if self.may_show(&gradients, brick, counts) {
                 let own = with_scalars!(self.scalars, values => match &risen {
                     Some(risen) => self.cells_by_values(values, brick, risen),
@@ -110,9 +111,14 @@ impl Seen<'_> {
         std::array::from_fn(|axis| (EDGE + 1).min(self.grid.size[axis] - first[axis]))
     }
 
+    /// Whether such voxels are among the first or the last of the grid.
+    fn is_at_border(&self, first: [usize; 3], extent: [usize; 3]) -> bool {
+        (0..3).any(|a| first[a] == 0 || first[a] + extent[a] >= self.grid.size[a])
+    }
+
     fn bounds(&self, gradients: &Gradients, first: [usize; 3]) -> Bounds {
         let extent = self.extent(first);
-        let border = (0..3).any(|a| first[a] == 0 || first[a] + extent[a] >= self.grid.size[a]);
+        let border = self.is_at_border(first, extent);
         // A cubic that leaves the range of its voxels does so from where a straight line continues them, too.
         let (wider, steeper) = match overshoot(self.filter) {
             1.0 => (0.0, 1.0),

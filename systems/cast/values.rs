@@ -131,22 +131,21 @@ impl<'a> Values<'a> {
         self.size.map(|n| (n as i64 - 1) << FRACTION_BITS)
     }
 
-    /// The flat faces that close surfaces at sample `k`, of those that a ray crosses there.
+    /// The flat faces that close surfaces within the slab of sample `k`, whose stretch is known, of those that a ray crosses there.
     fn close(
         &self,
         (level, fade): (Level, f32),
-        tile: &Tile,
+        (tile, stretch): (&Tile, &Stretch),
         (lane, k): (usize, i64),
         met: &mut Vec<CrossedSurface>,
     ) {
-        let stretch = Stretch::of(tile, lane, k);
         let world = |place: DVec3| self.index_to_world.transform_point3(place);
         let border = if tile.is_inner(k, 1) {
             [None; 2]
         } else {
             caps::at_border(tile, (lane, k), self.last(), &self.to_world)
         };
-        let cut = self.cut.as_ref().map(|cut| caps::at_cut(cut, &stretch, world));
+        let cut = self.cut.as_ref().map(|cut| caps::at_cut(cut, stretch, world));
         for cap in border.into_iter().chain(cut.into_iter().flatten()).flatten() {
             let place = stretch.at(cap.part);
             let at = world(index(place));
@@ -278,8 +277,9 @@ impl Source for Values<'_> {
                 let stretch = Stretch::of(tile, lane, k);
                 crossings.bare[lane] = seen[lane];
                 crossings.met.clear();
-                if capped && (self.cut.is_some() || !tile.is_inner(k, 1)) {
-                    self.close((level, fade), tile, (lane, k), &mut crossings.met);
+                if capped {
+                    let at = (tile, &stretch);
+                    self.close((level, fade), at, (lane, k), &mut crossings.met);
                 }
                 let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
                 let values = [slabs[lane][0], sampled.value, slabs[lane][1]];

@@ -35,7 +35,7 @@ impl Sent<'_> {
                 for (light, strength) in shadowed {
                     let Some(light) = light.brick(brick) else { continue };
                     for (row, sent) in sent.iter_mut().enumerate() {
-                        let betas = strength.map_or([1.0; EDGE], |s| s.row(brick, row));
+                        let betas = VoxelStrength::row(*strength, brick, row);
                         add(sent, &channels(light, row), betas);
                     }
                 }

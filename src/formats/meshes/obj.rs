@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::triangles::{Triangles, add_fan, fans};
+use super::triangles::{Triangles, add_fan, fans, place_upward};
 use crate::components::Color;
 
 /// Reads the lines `v x y z`, `v x y z r g b`, `vn x y z`, `vt u v` and `f a/t/n b/t/n c/t/n …`; the rest is left out.
@@ -36,9 +36,7 @@ pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
             }
             Some("vt") => {
                 let u = number().ok_or_else(|| wrong("no place in a texture"))?;
-                // Of these files v runs up.
-                let v = 1.0 - number().unwrap_or(0.0);
-                triangles.places.values.push(DVec2::new(u, v));
+                triangles.places.values.push(place_upward(u, number().unwrap_or(0.0)));
             }
             _ => {}
         }

@@ -65,6 +65,11 @@ impl Triangles {
     }
 }
 
+/// A place in a texture of a file in which v runs up.
+pub(crate) fn place_upward(u: f64, v: f64) -> DVec2 {
+    DVec2::new(u, 1.0 - v)
+}
+
 /// Adds a polygon as a fan of triangles around its first vertex.
 pub(crate) fn add_fan(faces: &mut Vec<[u32; 3]>, polygon: &[u32]) {
     let Some((&first, rest)) = polygon.split_first() else { return };

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 
-use super::triangles::{Triangles, add_fan, add_strip, fans, reserve};
+use super::triangles::{Triangles, add_fan, add_strip, fans, place_upward, reserve};
 use crate::components::Color;
 use crate::formats::number::{self, NumberType};
 use crate::formats::vtk_file::{Tag, VtkFile, before, tag};
@@ -160,8 +160,7 @@ fn add_attributes(
     }
     if let Some((places, width)) = piece.attribute("TCoords", 2..=3, count)? {
         triangles.places.values.resize(first, DVec2::NAN);
-        // Of VTK's textures v runs up.
-        let place = |uv: &[f64]| DVec2::new(uv[0], 1.0 - uv[1]);
+        let place = |uv: &[f64]| place_upward(uv[0], uv[1]);
         triangles.places.values.extend(places.chunks_exact(width).map(place));
     }
     Ok(())

@@ -59,13 +59,14 @@ impl VoxelStrength {
         (f64::from(through) / self.receding.divisor(voxel)) as f32
     }
 
-    /// β of the eight voxels of a brick's row, y before z: 0 where nothing is stored.
+    /// β of the eight voxels of a brick's row, y before z: 0 where nothing is stored, and 1 without a strength.
     #[must_use]
-    pub(crate) fn row(&self, brick: [usize; 3], row: usize) -> [f32; EDGE] {
-        let Some(stored) = self.voxels.brick(brick) else { return [0.0; EDGE] };
+    pub(crate) fn row(of: Option<&Self>, brick: [usize; 3], row: usize) -> [f32; EDGE] {
+        let Some(strength) = of else { return [1.0; EDGE] };
+        let Some(stored) = strength.voxels.brick(brick) else { return [0.0; EDGE] };
         let [x, y, z] = brick.map(|brick| brick * EDGE);
         let [y, z] = [y + row % EDGE, z + row / EDGE];
-        std::array::from_fn(|at| self.beta(stored[row * EDGE + at], [x + at, y, z]))
+        std::array::from_fn(|at| strength.beta(stored[row * EDGE + at], [x + at, y, z]))
     }
 }
 

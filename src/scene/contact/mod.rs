@@ -183,13 +183,8 @@ fn text(path: &Path, loaded: &Loaded, look: &Look, wish: &Wish) -> String {
     };
     let which = choice("channel", wish.channel) + &choice("time", wish.time);
     let how = if look.sharp { ", reconstruct = \"values\"" } else { "" };
-    let _ = write!(
-        text,
-        "[[entity]]
-name = \"volume\"
-volume = {{ file = {quoted}{which}{how} }}
-"
-    );
+    let volume = format!("volume = {{ file = {quoted}{which}{how} }}");
+    let _ = write!(text, "[[entity]]\nname = \"volume\"\n{volume}\n");
     if !look.classify.is_empty() {
         text += &look.classify;
         text += "material = { color = \"#efe6d8\", ambient = 0.06, diffuse = 0.86, specular = 0.12, shininess = 24 }\n";

@@ -7,24 +7,26 @@ use crate::volume::clipping::Left;
 use crate::volume::gradients::Gradients;
 
 impl Seen<'_> {
-    /// Such cells of a brick: bit `8 y + x` of word `z`.
+    /// The least value of a surface that is closed; `None` without any.
+    pub(super) fn closed_from(&self) -> Option<f32> {
+        let closed = self.classifier.surfaces().into_iter().filter(|surface| surface.is_capped);
+        closed.map(|surface| surface.value).reduce(f32::min)
+    }
+
+    /// Such cells of a brick, of surfaces the least of whose values is `least`: bit `8 y + x` of word `z`.
     pub(super) fn caps(
         &self,
         gradients: &Gradients,
-        brick: [usize; 3],
-        counts: [usize; 3],
+        (brick, counts): ([usize; 3], [usize; 3]),
+        least: f32,
     ) -> [u64; EDGE] {
         let none = [0; EDGE];
-        let capped = self.classifier.surfaces().into_iter().filter(|surface| surface.is_capped);
-        let Some(least) = capped.map(|surface| surface.value).reduce(f32::min) else {
-            return none;
-        };
         let first = brick.map(|b| b * EDGE);
         let extent = self.extent(first);
         let left = self.cut.map_or(Left::Whole, |cut| cut.left(first, extent));
         let size = self.grid.size;
         let ends = |axis: usize, cell: usize| cell == 0 || cell + 2 >= size[axis];
-        let border = (0..3).any(|a| (0..EDGE).any(|n| ends(a, first[a] + n)));
+        let border = self.is_at_border(first, extent);
         if left == Left::Nothing || (left == Left::Whole && !border) {
             return none;
         }

@@ -1,8 +1,8 @@
 //! The vertices and faces of a PLY: which of their properties are read, and what they become.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::super::triangles::{Triangles, add_fan};
+use super::super::triangles::{Triangles, add_fan, place_upward};
 use super::header::Element;
 use crate::components::Color;
 
@@ -39,7 +39,7 @@ impl Vertex {
         let color = |channels: [_; 3]| Color::from_srgb(channels.map(channel));
         triangles.colors.extend(self.channels.map(color));
         triangles.normals.values.extend(self.normal.map(three));
-        let place = |[u, v]: [usize; 2]| place_of(number(u), number(v));
+        let place = |[u, v]: [usize; 2]| place_upward(number(u), number(v));
         triangles.places.values.extend(self.texture.map(place));
     }
 }
@@ -79,7 +79,7 @@ impl Polygon {
             let corners: Vec<u32> = (0..polygon.len() as u32).map(place).collect();
             add_fan(&mut places.faces, &corners);
             if given {
-                places.values.extend(row[at].chunks_exact(2).map(|uv| place_of(uv[0], uv[1])));
+                places.values.extend(row[at].chunks_exact(2).map(|uv| place_upward(uv[0], uv[1])));
             }
         }
         Ok(polygon.len())
@@ -88,9 +88,4 @@ impl Polygon {
 
 fn index(value: f64) -> Option<u32> {
     ((0.0..=f64::from(u32::MAX)).contains(&value) && value.fract() == 0.0).then_some(value as u32)
-}
-
-/// A place in a texture, of which v runs up in these files.
-fn place_of(u: f64, v: f64) -> DVec2 {
-    DVec2::new(u, 1.0 - v)
 }

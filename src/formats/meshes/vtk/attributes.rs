@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::super::triangles::place_upward;
 use super::legacy::{Legacy, truncated};
 use crate::components::Color;
 use crate::formats::number::NumberType;
@@ -59,8 +60,7 @@ impl Attributes {
                 let width = file.count()?;
                 let numbers = numbers(file, count, width)?;
                 if (2..=3).contains(&width) {
-                    // Of VTK's textures v runs up.
-                    let place = |uv: &[f64]| DVec2::new(uv[0], 1.0 - uv[1]);
+                    let place = |uv: &[f64]| place_upward(uv[0], uv[1]);
                     self.places = numbers.chunks_exact(width).map(place).collect();
                 }
             }
