@@ -94,7 +94,8 @@
 //! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
 //! whole packet sees nothing (and before it a `Group` of packets), `window` finds which of its rays meet gel at the next four
 //! samples, all sixty-four places at once, and `kernel` samples it for them, with the widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
-//! shades and shadows it there. `several` joins gels that overlap, `texture` filters what is mapped onto a
+//! shades and shadows it there. Of a volume alone, `slices` casts rays through its voxels where that is asked for: a row of them
+//! at a time, slice by slice, since all pass a slice alike. `several` joins gels that overlap, `texture` filters what is mapped onto a
 //! polygon over the ray's footprint ([`texture`], §5), and `shaft` adds the light that dust scatters (§8). Then `resample`
 //! ([`view::resampling`]) integrates the sample array to the picture, and [`formats::pictures`] writes it.
 //!

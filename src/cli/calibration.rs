@@ -21,8 +21,9 @@ use super::{bound, view_name};
 const SWEPT: f64 = 40_000.0;
 /// How many combinations are swept.
 const COMBINATIONS: usize = 24;
-/// What is not turned for a target: it changes other things than accuracy, or what it misses is not known from few pixels.
-const LEFT: [&str; 3] = ["skip", "texel", "outlines"];
+/// What is not turned for a target: it changes other things than accuracy, or what it misses or costs is not known from few
+/// pixels.
+const LEFT: [&str; 4] = ["skip", "texel", "outlines", "per_voxel"];
 
 /// The scene with settings that keep `goal`; says which, and what is expected of them.
 pub fn calibrated(

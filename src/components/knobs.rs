@@ -16,6 +16,8 @@ pub enum Setting {
     Number(f32),
     /// Positions of the sample array, four a pixel.
     Positions(u32),
+    /// Rays for each smallest spacing of voxels; 0: of the pixels.
+    PerVoxel(u32),
     /// On or off.
     Truth(bool),
     /// What steps over empty space.
@@ -30,6 +32,7 @@ impl fmt::Display for Setting {
             Self::Times(times) => write!(f, "{times} × Δ"),
             Self::Number(number) => write!(f, "{number}"),
             Self::Positions(positions) => write!(f, "{positions}"),
+            Self::PerVoxel(rays) => write!(f, "{rays}"),
             Self::Truth(truth) => write!(f, "{truth}"),
             Self::Skip(Skip::Pyramid) => write!(f, "pyramid"),
             Self::Skip(Skip::None) => write!(f, "none"),
@@ -207,6 +210,24 @@ pub static KNOBS: &[Knob] = &[
             if let Setting::Positions(positions) = setting {
                 sampling.finest = positions;
                 sampling.coarsest = sampling.coarsest.max(positions);
+            }
+        },
+    },
+    Knob {
+        key: "per_voxel",
+        range: &[
+            Setting::PerVoxel(1),
+            Setting::PerVoxel(2),
+            Setting::PerVoxel(3),
+            Setting::PerVoxel(0),
+        ],
+        of_exact: true,
+        bound: Bound::Nothing,
+        is_monotone: false,
+        promise: "Rays through voxels see what rays through pixels see there, sample by sample; what lies between them is interpolated.",
+        set: |sampling, setting, _| {
+            if let Setting::PerVoxel(rays) = setting {
+                sampling.per_voxel = rays;
             }
         },
     },

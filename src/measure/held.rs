@@ -9,6 +9,7 @@ use crate::polygon::texture::TexturedBy;
 use crate::view::overlay::Overlay;
 use crate::view::picture::{Frame, Picture};
 use crate::view::samples::{SampleArray, Samples};
+use crate::view::voxel_rays::VoxelRays;
 use crate::volume::coefficients::Coefficients;
 use crate::volume::gel::{Gel, GelBricks};
 use crate::volume::grid::{Grid, Painted, Scalars};
@@ -122,7 +123,8 @@ fn cast(world: &World) -> Held {
     let of_array = |array: &SampleArray| {
         let colors = size_of_val(&array.colors.lattice[..]) + size_of_val(&array.colors.fine[..]);
         let beside = size_of_val(&array.opened[..]) + size_of_val(&array.cast[..]);
-        (colors + beside + array.splits.len()) as u64
+        let voxel_rays = array.voxel_rays.as_ref().map_or(0, VoxelRays::bytes);
+        (colors + beside + array.splits.len()) as u64 + voxel_rays
     };
     Held { bytes: total(&of_array), counts }
 }

@@ -13,4 +13,6 @@ pub mod ray;
 pub mod resampling;
 pub mod samples;
 pub mod viewer;
+pub mod voxel_rays;
+mod voxel_resampling;
 pub mod walk;

@@ -10,12 +10,24 @@ use rayon::prelude::*;
 
 use super::picture::Picture;
 use super::samples::{POSITIONS, SampleArray};
+use super::voxel_resampling;
 use crate::components::{Color, PixelFilter};
 
 /// The picture of a sample array: a pixel is what `filter` makes of the positions around it, over `background` if there is
 /// one; linear associated RGBA.
 #[must_use]
 pub fn resample(array: &SampleArray, filter: PixelFilter, background: Option<Color>) -> Picture {
+    let size = array.layout.size;
+    let pixels = match &array.voxel_rays {
+        Some(rays) => voxel_resampling::pixels(rays, size, filter),
+        None => of_positions(array, filter),
+    };
+    let picture = Picture { size, pixels: crate::shared::Shared::new(pixels) };
+    background.map_or(picture.clone(), |color| picture.over(color.0))
+}
+
+/// The pixels of rays at positions.
+fn of_positions(array: &SampleArray, filter: PixelFilter) -> Vec<[f32; 4]> {
     let size = array.layout.size;
     let mut pixels = vec![[0.0; 4]; size[0] * size[1]];
     let lattice = Lattice::of(array);
@@ -29,8 +41,7 @@ pub fn resample(array: &SampleArray, filter: PixelFilter, background: Option<Col
             }
         }
     });
-    let picture = Picture { size, pixels: crate::shared::Shared::new(pixels) };
-    background.map_or(picture.clone(), |color| picture.over(color.0))
+    pixels
 }
 
 /// Rows of pixels that are resampled together.
@@ -224,10 +235,13 @@ fn convolved(
             sum += color.as_dvec4() * (wx * wy);
         }
     }
-    // Mitchell's filter has negative lobes: what they leave stays an opacity, and a colour within it unless there is one
-    // brighter than white around.
-    let sum = sum.as_vec4();
+    within_opacity(sum.as_vec4(), excess).to_array()
+}
+
+/// Mitchell's filter has negative lobes: what they leave of a pixel stays an opacity, and a colour within it unless there is
+/// one around that is brighter than its opacity by `excess`.
+pub(super) fn within_opacity(sum: Vec4, excess: f32) -> Vec4 {
     let alpha = sum.w.clamp(0.0, 1.0);
     let most = if excess > 1e-6 { f32::INFINITY } else { alpha };
-    sum.truncate().clamp(Vec3::ZERO, Vec3::splat(most)).extend(alpha).to_array()
+    sum.truncate().clamp(Vec3::ZERO, Vec3::splat(most)).extend(alpha)
 }

@@ -1,7 +1,11 @@
 //! The array of sample colours of a view: 4 × 4 positions a pixel, where rays were cast, and what they saw (paper §6).
 
-use crate::schedule::Product;
 use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::voxel_rays::VoxelRays;
+use crate::schedule::Product;
 
 /// Positions along a pixel's side.
 pub const POSITIONS: usize = 4;
@@ -141,11 +145,21 @@ pub struct SampleArray {
     /// For each block, which is also the region of 4 × 4 positions from its first on: bit 0 is set if it was split to
     /// regions of 2 × 2, bit `1 + 2 y + x` if that child of it was split to single positions.
     pub splits: Vec<u8>,
+    /// Rays through a volume's voxels, where they were cast in place of those at positions, of which there are none then.
+    pub voxel_rays: Option<VoxelRays>,
     /// What was counted.
     pub counts: Counts,
 }
 
 impl SampleArray {
+    /// An array for rays that are not at its positions.
+    #[must_use]
+    pub(crate) fn without_rays(layout: Layout) -> Self {
+        let (opened, cast, splits) = (Vec::new(), Vec::new(), Vec::new());
+        let (colors, counts) = (Colors::default(), Counts::default());
+        Self { layout, colors, opened, cast, splits, voxel_rays: None, counts }
+    }
+
     /// C at a position where a ray was cast.
     #[must_use]
     #[inline]
@@ -157,7 +171,9 @@ impl SampleArray {
     #[must_use]
     pub fn meets_anything(&self) -> bool {
         let met = |color: &[f32; 4]| color[3] > 0.0;
-        self.colors.lattice.iter().any(met) || self.colors.fine.as_flattened().iter().any(met)
+        self.voxel_rays.as_ref().is_some_and(VoxelRays::meet_anything)
+            || self.colors.lattice.iter().any(met)
+            || self.colors.fine.as_flattened().iter().any(met)
     }
 
     /// Whether a ray was cast at a position.
@@ -165,7 +181,7 @@ impl SampleArray {
     #[inline]
     pub fn is_cast(&self, i: usize, j: usize) -> bool {
         let (plane, block) = self.layout.place(i, j);
-        self.cast[block] >> plane & 1 == 1
+        self.cast.get(block).is_some_and(|cast| cast >> plane & 1 == 1)
     }
 
     /// Where rays were cast (the paper's figure 8): 4 × 4 values a pixel, row by row, of the picture's pixels alone.
@@ -174,9 +190,29 @@ impl SampleArray {
         let [width, height] = self.layout.size.map(|n| n * POSITIONS);
         // A pixel's four positions are its middle, the one behind it, and the two before.
         let first = self.layout.margin - POSITIONS / 2;
+        if let Some(rays) = &self.voxel_rays {
+            return voxel_ray_map(rays, [width, height]);
+        }
         (0..height)
             .flat_map(|j| (0..width).map(move |i| (i, j)))
             .map(|(i, j)| self.is_cast(first + i, first + j))
             .collect()
     }
+}
+
+/// Which positions of a picture, `size` of them, are the nearest to rays through voxels.
+fn voxel_ray_map(rays: &VoxelRays, [width, height]: [usize; 2]) -> Vec<bool> {
+    let mut map = vec![false; width * height];
+    let places = (0..rays.size[1]).flat_map(|j| (0..rays.size[0]).map(move |i| [i, j]));
+    for at in places {
+        let window = rays.places.window(DVec2::from(at.map(|n| n as f64)));
+        let position = window.map(|window| (window * POSITIONS as f64).floor());
+        if let Some(at) = position.filter(|at| at.min_element() >= 0.0) {
+            let (x, y) = (at.x as usize, at.y as usize);
+            if x < width && y < height {
+                map[y * width + x] = true;
+            }
+        }
+    }
+    map
 }

@@ -1,7 +1,9 @@
 //! The number types that gel is kept in.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x8, i32x8, u8x16, u16x8, u32x4, u32x8};
+use fearless_simd::{
+    f32x8, f32x16, i32x8, i32x16, u8x16, u8x32, u16x8, u16x32, u32x4, u32x8, u32x16,
+};
 use glam::Vec4;
 
 /// Cells along one edge of a brick.
@@ -37,6 +39,8 @@ pub trait Texel: Copy + Default + Send + Sync + 'static {
     fn is_seen(alpha: f32) -> bool;
     /// The channels of two texels, as stored numbers.
     fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S>;
+    /// The channels of eight texels, as stored numbers: of the first four, and of the others.
+    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>);
     /// What a stored number is multiplied by; 1 of floats, which alone may be above 1.
     const SCALE: f32;
 }
@@ -46,6 +50,13 @@ impl Texel for [f32; 4] {
     #[inline(always)]
     fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S> {
         f32x8::from_slice(simd, pair.as_flattened())
+    }
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>) {
+        let (low, high) = row.split_at(4);
+        let low = f32x16::from_slice(simd, low.as_flattened());
+        (low, f32x16::from_slice(simd, high.as_flattened()))
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self)
@@ -66,6 +77,12 @@ impl Texel for [u16; 4] {
     #[inline(always)]
     fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S> {
         to_floats(simd, simd.widen_u16x8(u16x8::from_slice(simd, pair.as_flattened())))
+    }
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>) {
+        let (low, high) = simd.widen_u16x32(u16x32::from_slice(simd, row.as_flattened()));
+        (sixteen_floats(low), sixteen_floats(high))
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
@@ -97,6 +114,13 @@ impl Texel for [u8; 4] {
         let bytes = [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], 0, 0, 0, 0, 0, 0, 0, 0];
         let (low, _) = simd.widen_u8x16(u8x16::from_slice(simd, &bytes));
         to_floats(simd, simd.widen_u16x8(low))
+    }
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>) {
+        let (low, high) = simd.widen_u8x32(u8x32::from_slice(simd, row.as_flattened()));
+        let (low, high) = simd.widen_u16x32(simd.combine_u16x16(low, high));
+        (sixteen_floats(low), sixteen_floats(high))
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
@@ -139,4 +163,12 @@ fn stored_channel<S: Simd>(simd: S, row: &[f32; CELLS], most: f32) -> u32x8<S> {
 fn to_floats<S: Simd>(simd: S, (low, high): (u32x4<S>, u32x4<S>)) -> f32x8<S> {
     let whole: i32x8<S> = simd.combine_u32x4(low, high).bitcast();
     f32x8::float_from(whole)
+}
+
+/// Sixteen whole numbers, below 2³¹, as floats.
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#[inline(always)]
+fn sixteen_floats<S: Simd>(numbers: u32x16<S>) -> f32x16<S> {
+    let whole: i32x16<S> = numbers.bitcast();
+    f32x16::float_from(whole)
 }

@@ -204,6 +204,13 @@ impl<'a, T: Texel> TexelSlices<'a, T> {
         self.table.get(entry as usize).copied().unwrap_or(EMPTY)
     }
 
+    /// The number of a brick of the grid among the stored ones, or `EMPTY`.
+    #[must_use]
+    #[inline]
+    pub(crate) fn stored_at(self, [x, y, z]: [usize; 3]) -> u32 {
+        self.stored(((z * self.counts[1] + y) * self.counts[0] + x) as u32)
+    }
+
     /// What the channels of texels are multiplied by.
     #[must_use]
     #[inline]

@@ -47,6 +47,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
             opened: vec![NONE; blocks],
             cast: vec![0; blocks],
             splits: vec![0; blocks],
+            voxel_rays: None,
             counts: Counts::default(),
         };
         let edges = supersampled.then(|| [Colors::new(&layout), Colors::new(&layout)]);

@@ -59,6 +59,7 @@ fn all_open(layout: Layout) -> SampleArray {
         opened: (0..blocks as u32).collect(),
         cast: vec![u16::MAX; blocks],
         splits: vec![ALL_SPLIT; blocks],
+        voxel_rays: None,
         counts: Counts::default(),
     }
 }

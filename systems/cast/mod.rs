@@ -37,6 +37,7 @@ mod rays;
 mod receiving;
 mod several;
 mod shaft;
+mod slices;
 mod sought;
 mod targets;
 mod texture;
@@ -107,6 +108,9 @@ fn layout(view: &View, sampling: &Sampling) -> Layout {
 type Onlookers<'a> = (&'a Watch, Option<&'a Viewer>);
 
 fn cast(inputs: &Inputs, camera: &Camera, onlookers: Onlookers<'_>) -> Result<Samples, Error> {
+    if let Some(gel) = slices::asked(inputs, camera) {
+        return Ok(Samples(Arc::new(slices::cast(inputs, camera, gel, onlookers.0)?)));
+    }
     // The first pictures for who looks on reach further beyond the picture's own edges.
     let coarsest = onlookers.1.map_or(1, |_| preview::FIRST).max(inputs.sampling.coarsest);
     let widest = layout(&inputs.view, &Sampling { coarsest, ..inputs.sampling.clone() });

@@ -3,14 +3,16 @@
 use glam::DVec3;
 use hecs::World;
 
+use super::slices;
 use super::targets::{Outlines, most_opened};
-use crate::components::{Classify, DepthCue, Sampling, Surface, View, Voxelize};
+use crate::components::{Classify, DepthCue, Sampling, Shaft, Surface, View, Voxelize};
 use crate::polygon::face::{Face, Faces};
 use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::samples::{Layout, POSITIONS};
-use crate::volume::scene_volumes::{Content, with_content};
+use crate::volume::grid::smallest_spacing;
+use crate::volume::scene_volumes::{Content, volumes, with_content};
 
 /// Bytes of a color of a block, and of the positions between in a block that is opened.
 const COLOR: u64 = 16;
@@ -40,6 +42,9 @@ pub(crate) fn of(
 ) -> Weight {
     let mut query = world.query::<&Faces>().with::<&Surface>().without::<&Voxelize>();
     let traced: Vec<&Faces> = query.iter().collect();
+    if let Some(most) = voxel_rays(world, traced.is_empty(), (view, sampling, extent)) {
+        return Weight { most, part: 1.0 };
+    }
     let blocks = layout.blocks().iter().product::<usize>() as u64;
     let all_open = (sampling.coarsest as usize) < POSITIONS;
     let surfaces = has_surfaces(world);
@@ -63,6 +68,23 @@ pub(crate) fn of(
     let opened = open * colors * FINE;
     let most = always + opened;
     Weight { most, part: (always as f64 + opened as f64 * seen) / most.max(1) as f64 }
+}
+
+/// The bytes of rays through voxels, where they are [asked](slices::asked) for: `alone` where no polygon is traced.
+fn voxel_rays(
+    world: &World,
+    alone: bool,
+    (view, sampling, extent): (&View, &Sampling, &Extent),
+) -> Option<u64> {
+    let none = |found: bool| (!found).then_some(());
+    none(sampling.per_voxel == 0 || !alone || view.field_of_view.is_some())?;
+    none(world.query::<&Shaft>().iter().next().is_some())?;
+    none(world.query::<&DepthCue>().iter().next().is_some())?;
+    let volumes = volumes(world);
+    let [volume] = &volumes[..] else { return None };
+    none(matches!(volume.content, Content::Values | Content::Projected))?;
+    let distance = sampling.distance_mm.or(smallest_spacing([volume.grid]))?;
+    slices::bytes(&volume.grid, &Camera::new(view, extent), distance, sampling)
 }
 
 /// Whether a volume of values has a surface, a contour without thickness.

@@ -45,7 +45,8 @@ fn resampled(
     }
     let opened = (0..blocks as u32).map(|block| if every { block } else { NONE }).collect();
     let splits = vec![if every { 0b1_1111 } else { 0 }; blocks];
-    let array = SampleArray { layout, colors, opened, cast, splits, counts: Counts::default() };
+    let (voxel_rays, counts) = (None, Counts::default());
+    let array = SampleArray { layout, colors, opened, cast, splits, voxel_rays, counts };
     let mut world = World::new();
     let sampling = Sampling { pixel_filter: filter, ..Sampling::default() };
     let view = View { size: size.map(|n| n as u32), ..View::default() };

@@ -22,4 +22,5 @@ mod stopping;
 mod support;
 mod thin;
 mod thrift;
+mod voxel_rays;
 mod watertight;
