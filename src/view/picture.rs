@@ -71,6 +71,14 @@ impl Picture {
     }
 }
 
+/// Mitchell's filter has negative lobes: what they leave of a pixel stays an opacity, and a colour within it unless there is
+/// one around that is brighter than its opacity by `excess`.
+pub(super) fn within_opacity(sum: glam::Vec4, excess: f32) -> glam::Vec4 {
+    let alpha = sum.w.clamp(0.0, 1.0);
+    let most = if excess > 1e-6 { f32::INFINITY } else { alpha };
+    sum.truncate().clamp(glam::Vec3::ZERO, glam::Vec3::splat(most)).extend(alpha)
+}
+
 /// The picture of a view, linear associated RGBA.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame(pub Picture);

@@ -5,10 +5,10 @@
 
 use std::borrow::Cow;
 
-use glam::{DVec4, Vec3, Vec4};
+use glam::{DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::picture::Picture;
+use super::picture::{Picture, within_opacity};
 use super::samples::{POSITIONS, SampleArray};
 use super::voxel_resampling;
 use crate::components::{Color, PixelFilter};
@@ -236,12 +236,4 @@ fn convolved(
         }
     }
     within_opacity(sum.as_vec4(), excess).to_array()
-}
-
-/// Mitchell's filter has negative lobes: what they leave of a pixel stays an opacity, and a colour within it unless there is
-/// one around that is brighter than its opacity by `excess`.
-pub(super) fn within_opacity(sum: Vec4, excess: f32) -> Vec4 {
-    let alpha = sum.w.clamp(0.0, 1.0);
-    let most = if excess > 1e-6 { f32::INFINITY } else { alpha };
-    sum.truncate().clamp(Vec3::ZERO, Vec3::splat(most)).extend(alpha)
 }

@@ -2,8 +2,6 @@
 
 use glam::DVec2;
 
-use super::camera::Camera;
-
 /// What rays saw that lie on a lattice of their own and not on that of the picture's positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VoxelRays {
@@ -43,10 +41,10 @@ impl LatticePlaces {
         self.first + self.right * (window.x - 0.5) + self.down * (window.y - 0.5)
     }
 
-    /// The least and the greatest place of a window that reaches `margin` pixels beyond the picture.
+    /// The least and the greatest place of a window that reaches `margin` pixels beyond a picture of `size`.
     #[must_use]
-    pub fn bounds(&self, camera: &Camera, margin: f64) -> [DVec2; 2] {
-        let [width, height] = camera.size.map(|n| n as f64);
+    pub fn bounds(&self, size: [usize; 2], margin: f64) -> [DVec2; 2] {
+        let [width, height] = size.map(|n| n as f64);
         let ends = [[-margin, -margin], [width + margin, -margin], [-margin, height + margin]];
         let corners = ends.into_iter().chain([[width + margin, height + margin]]);
         let places = corners.map(|corner| self.at(DVec2::from(corner)));

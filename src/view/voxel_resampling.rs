@@ -8,7 +8,7 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4, f32x8};
 use glam::{DVec2, Vec4};
 use rayon::prelude::*;
 
-use super::resampling::within_opacity;
+use super::picture::within_opacity;
 use super::samples::POSITIONS;
 use super::voxel_rays::VoxelRays;
 use crate::components::PixelFilter;

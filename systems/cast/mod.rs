@@ -109,7 +109,9 @@ type Onlookers<'a> = (&'a Watch, Option<&'a Viewer>);
 
 fn cast(inputs: &Inputs, camera: &Camera, onlookers: Onlookers<'_>) -> Result<Samples, Error> {
     if let Some(gel) = slices::asked(inputs, camera) {
-        return Ok(Samples(Arc::new(slices::cast(inputs, camera, gel, onlookers.0)?)));
+        let layout = layout(&inputs.view, &inputs.sampling);
+        let array = slices::cast(inputs, camera, gel, (layout, onlookers.0))?;
+        return Ok(Samples(Arc::new(array)));
     }
     // The first pictures for who looks on reach further beyond the picture's own edges.
     let coarsest = onlookers.1.map_or(1, |_| preview::FIRST).max(inputs.sampling.coarsest);

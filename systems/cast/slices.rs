@@ -18,12 +18,12 @@ use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use super::inputs::{Inputs, Placed, Sampled};
-use super::{layout, rays};
+use super::rays;
 use crate::components::{Sampling, Skip};
 use crate::error::Error;
 use crate::schedule::Watch;
 use crate::view::camera::Camera;
-use crate::view::samples::{Counts, SampleArray};
+use crate::view::samples::{Counts, Layout, SampleArray};
 use crate::view::voxel_rays::VoxelRays;
 use crate::volume::gel::{GelBricks, Texel, Texels};
 use crate::volume::grid::Grid;
@@ -46,12 +46,12 @@ pub(super) fn asked<'a>(
     (inputs.sampling.per_voxel > 0 && alone && camera.eye.is_none()).then_some((placed, &gel.lit))
 }
 
-/// Casts them.
+/// Casts them for a picture of such a layout.
 pub(super) fn cast(
     inputs: &Inputs,
     camera: &Camera,
     (placed, gel): (&Placed, &GelBricks),
-    watch: &Watch,
+    (layout, watch): (Layout, &Watch),
 ) -> Result<SampleArray, Error> {
     let sampling = &inputs.sampling;
     let distance = rays::distance(inputs);
@@ -65,7 +65,7 @@ pub(super) fn cast(
         let sought = Sought { shear: &shear, texels, pyramid, stop, ratio, level };
         sought.cast(watch)?
     });
-    let mut array = SampleArray::without_rays(layout(&inputs.view, sampling));
+    let mut array = SampleArray::without_rays(layout);
     (array.voxel_rays, array.counts) = (Some(rays), counts);
     Ok(array)
 }

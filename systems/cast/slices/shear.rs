@@ -78,7 +78,7 @@ impl Shear {
             DVec2::from([0, 1].map(|axis| at[axes[axis]] - slope[axis] * (at[w] - middle)))
         };
         let margin = sampling.pixel_filter.reach() as f64;
-        let seen = LatticePlaces::of(lattice).bounds(camera, margin);
+        let seen = LatticePlaces::of(lattice).bounds(camera.size, margin);
         let reached = [0, 1].map(|axis| {
             let lean = slope[axis].abs() * middle;
             reached((size[axis] - 1) as f64, lean, seen.map(|end| end[axis]))
