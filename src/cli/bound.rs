@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use gelray::components::View;
+use gelray::components::{Sampling, View};
 use gelray::light::strength::ProjectedBy;
 use gelray::polygon::face::Faces;
 use gelray::polygon::texture;
 use gelray::schedule::{Job, Schedule};
+use gelray::systems::cast::keeps_edges;
 use gelray::view::picture::Picture;
 use hecs::World;
 
@@ -22,6 +23,8 @@ const THREAD: u64 = 512 << 10;
 
 /// Bytes for a pixel of the picture's file, while it is made.
 const ENCODED: u64 = 16;
+/// And for one of a picture in memory.
+const PICTURE: u64 = 16;
 
 /// What each byte of a scene's text takes while it is read, and each entity that it states.
 const LETTER: u64 = 72;
@@ -56,10 +59,15 @@ pub fn program() -> u64 {
     PROGRAM + THREAD * rayon::current_num_threads() as u64
 }
 
-/// The file of the picture, while it is made.
+/// The file of the picture, while it is made: of what casting its rays took beside its colors, and is free again, a second
+/// picture's bytes serve for it.
 pub fn encoding(world: &World) -> u64 {
-    let pixels = |view: &View| view.size.iter().map(|n| u64::from(*n)).product::<u64>();
-    world.query::<&View>().iter().map(pixels).sum::<u64>() * ENCODED
+    let bytes = |(view, sampling): (&View, Option<&Sampling>)| {
+        let pixels = view.size.iter().map(|n| u64::from(*n)).product::<u64>();
+        let free = sampling.is_some_and(|sampling| keeps_edges(world, sampling));
+        pixels * if free { ENCODED.saturating_sub(PICTURE) } else { ENCODED }
+    };
+    world.query::<(&View, Option<&Sampling>)>().iter().map(bytes).sum()
 }
 
 /// Pictures of textures as they were read, each once, and their coarser levels.

@@ -65,6 +65,7 @@ use media::Media;
 use preview::Preview;
 use rays::Errand;
 use targets::Crossed;
+pub use weight::keeps_edges;
 
 /// Casts the rays of every view.
 pub(crate) struct Cast;

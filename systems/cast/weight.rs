@@ -48,9 +48,7 @@ pub(crate) fn of(
     let blocks = layout.blocks().iter().product::<usize>() as u64;
     let all_open = (sampling.coarsest as usize) < POSITIONS;
     let surfaces = has_surfaces(world);
-    let supersampled = (surfaces || traced.iter().any(|faces| !faces.0.is_empty()))
-        && (sampling.finest as usize) < POSITIONS
-        && sampling.coarsest > sampling.finest;
+    let supersampled = keeps_edges(world, sampling);
     let colors = if supersampled { 3 } else { 1 };
     let (open, seen) = if all_open {
         (blocks, 1.0)
@@ -64,10 +62,21 @@ pub(crate) fn of(
         (opened(&traced, &Camera::new(view, extent), layout).unwrap_or(blocks), SEEN)
     };
     // A number, flags of rays and of splits for each block, and the flags of two levels while they are decided on.
-    let always = blocks * (colors * COLOR + 4 + 2 + 1 + 2);
+    // C_A and C_G are free again before there is a frame, which is planned for beside them: the lesser of both is counted once.
+    let free = (colors - 1).min(1);
+    let always = blocks * ((colors - free) * COLOR + 4 + 2 + 1 + 2);
     let opened = open * colors * FINE;
     let most = always + opened;
     Weight { most, part: (always as f64 + opened as f64 * seen) / most.max(1) as f64 }
+}
+
+/// Whether C_A and C_G are kept while rays of a view with such sampling are cast: where edges may ask for more than a ray a
+/// pixel. Each takes as much as a picture, and is free again when rays are cast.
+#[must_use]
+pub fn keeps_edges(world: &World, sampling: &Sampling) -> bool {
+    let mut traced = world.query::<&Faces>().with::<&Surface>().without::<&Voxelize>();
+    let any = traced.iter().any(|faces| !faces.0.is_empty()) || has_surfaces(world);
+    any && (sampling.finest as usize) < POSITIONS && sampling.coarsest > sampling.finest
 }
 
 /// The bytes of rays through voxels, where they are [asked](slices::asked) for: `alone` where no polygon is traced.
