@@ -44,7 +44,9 @@ pub(super) fn pixels(rays: &VoxelRays, size: [usize; 2], filter: PixelFilter) ->
                 dispatch!(level, simd => at_places(simd, rays, (start, weight), row));
             }
             // Weights that sum to 1 may do so but for rounding.
-            row.iter_mut().for_each(|pixel| pixel[3] = pixel[3].min(1.0));
+            for pixel in row {
+                pixel[3] = pixel[3].min(1.0);
+            }
         }
     });
     pixels

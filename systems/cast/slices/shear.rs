@@ -58,7 +58,9 @@ impl Shear {
     ) -> Result<Self, String> {
         let to_index = grid.world_to_index();
         let step = to_index.transform_vector3(camera.forward * distance).to_array();
-        let further = |most: usize, axis: usize| if step[axis].abs() > step[most].abs() { axis } else { most };
+        let further = |most: usize, axis: usize| {
+            if step[axis].abs() > step[most].abs() { axis } else { most }
+        };
         let w = (0..3).fold(0, further);
         let axes = [[1, 2, 0], [0, 2, 1], [0, 1, 2]][w];
         let size = axes.map(|axis| grid.size[axis]);
