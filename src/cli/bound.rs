@@ -23,8 +23,6 @@ const THREAD: u64 = 512 << 10;
 
 /// Bytes for a pixel of the picture's file, while it is made.
 const ENCODED: u64 = 16;
-/// And for one of a picture in memory.
-const PICTURE: u64 = 16;
 
 /// What each byte of a scene's text takes while it is read, and each entity that it states.
 const LETTER: u64 = 72;
@@ -59,13 +57,12 @@ pub fn program() -> u64 {
     PROGRAM + THREAD * rayon::current_num_threads() as u64
 }
 
-/// The file of the picture, while it is made: of what casting its rays took beside its colors, and is free again, a second
-/// picture's bytes serve for it.
+/// The file of the picture, while it is made; nothing where casting its rays took as much for edges, which is free by then.
 pub fn encoding(world: &World) -> u64 {
     let bytes = |(view, sampling): (&View, Option<&Sampling>)| {
         let pixels = view.size.iter().map(|n| u64::from(*n)).product::<u64>();
         let free = sampling.is_some_and(|sampling| keeps_edges(world, sampling));
-        pixels * if free { ENCODED.saturating_sub(PICTURE) } else { ENCODED }
+        if free { 0 } else { pixels * ENCODED }
     };
     world.query::<(&View, Option<&Sampling>)>().iter().map(bytes).sum()
 }

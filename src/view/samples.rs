@@ -206,7 +206,7 @@ fn voxel_ray_map(rays: &VoxelRays, [width, height]: [usize; 2]) -> Vec<bool> {
     let places = (0..rays.size[1]).flat_map(|j| (0..rays.size[0]).map(move |i| [i, j]));
     for at in places {
         let window = rays.places.window(DVec2::from(at.map(|n| n as f64)));
-        let position = window.map(|window| (window * POSITIONS as f64).floor());
+        let position = window.map(|window| (window * POSITIONS as f64).round());
         if let Some(at) = position.filter(|at| at.min_element() >= 0.0) {
             let (x, y) = (at.x as usize, at.y as usize);
             if x < width && y < height {

@@ -55,7 +55,7 @@ pub(super) fn pixels(rays: &VoxelRays, size: [usize; 2], filter: PixelFilter) ->
 /// Where a pixel's parts are on the lattice, from its middle, and their weights, which sum to 1.
 fn taps(rays: &VoxelRays, filter: PixelFilter) -> Vec<(DVec2, f32)> {
     let axis = |step: DVec2| {
-        // So many places a pixel that no ray is passed over.
+        // So many places a pixel that no ray is passed over, as long as they are not too many.
         let least = step.abs().max_element().ceil().clamp(1.0, 64.0) as i32;
         let (places, reach) = match filter {
             PixelFilter::Box => (least, 0),

@@ -22,7 +22,7 @@ use super::several::{AnyMedium, Several};
 use super::shaft::Dust;
 use super::texture::FaceTexture;
 use super::values::Values;
-use crate::components::{Skip, Surface};
+use crate::components::{Sampling, Skip, Surface};
 use crate::error::Error;
 use crate::polygon::face::FaceColors;
 use crate::view::camera::Camera;
@@ -47,6 +47,12 @@ pub fn distance(inputs: &Inputs) -> f64 {
     inputs.sampling.distance_mm.or(smallest).unwrap_or(inputs.extent.radius())
 }
 
+/// ε_T of a view's rays: what comes through is never under 0, so a ray that is not to stop goes on behind what is opaque.
+pub fn stop(sampling: &Sampling) -> f64 {
+    let stop_at = f64::from(sampling.stop_at);
+    if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY }
+}
+
 /// Sends rays on an errand; `layout` holds every position that they are cast at.
 pub fn send<E: Errand>(
     inputs: &Inputs,
@@ -60,11 +66,8 @@ pub fn send<E: Errand>(
         Cue { k1: cue.k1, k2: cue.k2, near }
     });
     let polygons = polygons(inputs, camera, &beams, cue);
-    // A transparency is never under 0: a ray that is not to stop goes on behind what is opaque.
-    let stop_at = f64::from(inputs.sampling.stop_at);
-    let stop = if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY };
     let eye = camera.eye.map_or(f64::NEG_INFINITY, |eye| -eye);
-    let slabs = Slabs { distance: distance(inputs), stop, eye };
+    let slabs = Slabs { distance: distance(inputs), stop: stop(&inputs.sampling), eye };
     let dust = Dust::new(&inputs.shafts, camera).map_err(|p| Error::entity("shaft", p))?;
     let dust = dust.as_ref();
     let mut media = Vec::new();

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::inputs::{Inputs, Placed, Sampled};
 use super::rays;
-use crate::components::{Sampling, Skip};
+use crate::components::Sampling;
 use crate::error::Error;
 use crate::schedule::Watch;
 use crate::view::camera::Camera;
@@ -57,9 +57,8 @@ pub(super) fn cast(
     let distance = rays::distance(inputs);
     let shear = Shear::new(&placed.grid, camera, distance, sampling)
         .map_err(|problem| Error::entity("view", problem))?;
-    let stop = if sampling.stop_at > 0.0 { sampling.stop_at } else { f32::NEG_INFINITY };
-    let ratio = distance / placed.unit;
-    let pyramid = placed.pyramid.as_ref().filter(|_| sampling.skip != Skip::None);
+    let (stop, ratio) = (rays::stop(sampling) as f32, distance / placed.unit);
+    let pyramid = placed.pyramid.as_ref();
     let (rays, counts) = crate::with_texels!(gel, texels => {
         let level = Level::new();
         let sought = Sought { shear: &shear, texels, pyramid, stop, ratio, level };
@@ -114,7 +113,7 @@ impl<T: Texel> Sought<'_, T> {
             Ok(done)
         };
         let done: Vec<Done> = bands.map(band).collect::<Result<_, Error>>()?;
-        let all = done.iter().fold(Done::NOTHING, Done::join);
+        let all = done.iter().fold(Done::nothing(), Done::join);
         let met = if all.met[0][0] < all.met[1][0] { all.met } else { [[0; 2]; 2] };
         Ok((VoxelRays { size, colors, met, places: shear.places }, all.counts))
     }
@@ -132,7 +131,7 @@ impl<T: Texel> Sought<'_, T> {
             ratio: self.ratio,
         };
         let mut tiles: Vec<Tile> = shear.phases.iter().map(|_| Tile::default()).collect();
-        let (mut done, level) = (Done::NOTHING, self.level);
+        let (mut done, level) = (Done::nothing(), self.level);
         for left in (0..shear.count[0]).step_by(WIDE) {
             let size = [WIDE.min(shear.count[0] - left), high];
             let first = [left as i64 + shear.first[0], top as i64 + shear.first[1]];
@@ -169,17 +168,9 @@ struct Done {
 }
 
 impl Done {
-    const NOTHING: Self = Self {
-        met: [[usize::MAX; 2], [0; 2]],
-        counts: Counts {
-            rays: 0,
-            samples: 0,
-            cells_skipped: 0,
-            packet_steps: 0,
-            polygon_hits: 0,
-            slivers: 0,
-        },
-    };
+    fn nothing() -> Self {
+        Self { met: [[usize::MAX; 2], [0; 2]], counts: Counts::default() }
+    }
 
     /// That a ray met something.
     fn note(&mut self, at: [usize; 2]) {

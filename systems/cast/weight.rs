@@ -1,7 +1,7 @@
 //! The most bytes that a view's sample array takes while its rays are cast, for a plan.
 
 use glam::DVec3;
-use hecs::World;
+use hecs::{Or, World};
 
 use super::slices;
 use super::targets::{Outlines, most_opened};
@@ -63,7 +63,7 @@ pub(crate) fn of(
     };
     // A number, flags of rays and of splits for each block, and the flags of two levels while they are decided on.
     // C_A and C_G are free again before there is a frame, which is planned for beside them: the lesser of both is counted once.
-    let free = (colors - 1).min(1);
+    let free = u64::from(supersampled);
     let always = blocks * ((colors - free) * COLOR + 4 + 2 + 1 + 2);
     let opened = open * colors * FINE;
     let most = always + opened;
@@ -85,13 +85,15 @@ fn voxel_rays(
     alone: bool,
     (view, sampling, extent): (&View, &Sampling, &Extent),
 ) -> Option<u64> {
-    let none = |found: bool| (!found).then_some(());
-    none(sampling.per_voxel == 0 || !alone || view.field_of_view.is_some())?;
-    none(world.query::<&Shaft>().iter().next().is_some())?;
-    none(world.query::<&DepthCue>().iter().next().is_some())?;
+    let alone = alone
+        && view.field_of_view.is_none()
+        && world.query::<Or<&Shaft, &DepthCue>>().iter().next().is_none();
     let volumes = volumes(world);
     let [volume] = &volumes[..] else { return None };
-    none(matches!(volume.content, Content::Values | Content::Projected))?;
+    let has_gel = !matches!(volume.content, Content::Values | Content::Projected);
+    if sampling.per_voxel == 0 || !alone || !has_gel {
+        return None;
+    }
     let distance = sampling.distance_mm.or(smallest_spacing([volume.grid]))?;
     slices::bytes(&volume.grid, &Camera::new(view, extent), distance, sampling)
 }

@@ -14,8 +14,8 @@ use crate::volume::grid::Grid;
 
 /// Most rays along an axis of a voxel, however much longer it is than its other axes.
 const MOST_PARTS: f64 = 8.0;
-/// Most planes of samples.
-const MOST_PLANES: f64 = 67_108_864.0;
+/// Most planes of samples: each phase has a table of them.
+const MOST_PLANES: f64 = 262_144.0;
 
 /// The lattice of the rays through a volume, as one view sees it.
 pub(super) struct Shear {

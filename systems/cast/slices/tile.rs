@@ -3,6 +3,9 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, u8x64, u64x8};
+use glam::Vec3;
+
+use crate::view::composite::Gathered;
 
 /// Rays across a tile; with eight more on either side their bits are a word.
 pub(super) const WIDE: usize = 48;
@@ -124,8 +127,7 @@ impl Tile {
         Some(Row { gathered, open, right })
     }
 
-    /// C of the first rays of a row, linear associated RGBA; `None` of those that met nothing. What was stopped is taken as
-    /// opaque, as [`Gathered::rgba`](crate::view::composite::Gathered::rgba) does.
+    /// C of the first rays of a row, linear associated RGBA; `None` of those that met nothing.
     pub fn colors(
         &self,
         row: usize,
@@ -133,14 +135,10 @@ impl Tile {
         stop: f32,
     ) -> impl Iterator<Item = Option<[f32; 4]>> {
         self.gathered[row][BEFORE..][..across].iter().map(move |&[r, g, b, through]| {
-            if through >= 1.0 {
-                return None;
-            }
-            if through <= stop && through > 0.0 {
-                let part = 1.0 / (1.0 - through);
-                return Some([r * part, g * part, b * part, 1.0]);
-            }
-            Some([r, g, b, 1.0 - through.max(0.0)])
+            let color = Vec3::new(r, g, b).as_dvec3();
+            // Interpolation may leave an opacity a hair above 1.
+            let ray = Gathered { color, through: f64::from(through.max(0.0)) };
+            (through < 1.0).then(|| ray.rgba(f64::from(stop)))
         })
     }
 }
