@@ -168,7 +168,7 @@ fn every(positions: u32) -> impl Fn(&mut Sampling) {
     move |sampling| (sampling.coarsest, sampling.finest) = (positions, positions)
 }
 
-fn per_voxel(rays: u32) -> impl Fn(&mut Sampling) {
+fn per_voxel(rays: f64) -> impl Fn(&mut Sampling) {
     move |sampling| sampling.per_voxel = rays
 }
 
@@ -221,8 +221,10 @@ fn main() {
         ours("gelray, a ray a pixel", &painted, folder, every(4)),
         ours("gelray, every second pixel", &painted, folder, every(8)),
         ours("gelray, adaptive", &painted, folder, |_| ()),
-        ours("gelray, two rays a voxel", &painted, folder, per_voxel(2)),
-        ours("gelray, a ray a voxel", &painted, folder, per_voxel(1)),
+        ours("gelray, four rays a voxel", &painted, folder, per_voxel(4.0)),
+        ours("gelray, two rays a voxel", &painted, folder, per_voxel(2.0)),
+        ours("gelray, a ray a voxel", &painted, folder, per_voxel(1.0)),
+        ours("gelray, a ray for two voxels", &painted, folder, per_voxel(0.5)),
     ];
     rows.extend(peer("VolPack", told("pairs.raw").volpack()));
     rows.extend(peer("VTK", told("pairs.raw").vtk("painted", 1.0)));
@@ -235,8 +237,8 @@ fn main() {
         ours.warnings().iter().for_each(|warning| println!("{warning}"));
     }
     let mut rows = vec![first, ours("gelray, adaptive", &full, folder, |_| ())];
-    rows.push(ours("gelray, two rays a voxel", &full, folder, per_voxel(2)));
-    rows.push(ours("gelray, a ray a voxel", &full, folder, per_voxel(1)));
+    rows.push(ours("gelray, two rays a voxel", &full, folder, per_voxel(2.0)));
+    rows.push(ours("gelray, a ray a voxel", &full, folder, per_voxel(1.0)));
     rows.extend(peer("VTK", told("scalars.raw").vtk("scalars", 1.0)));
     race("the whole task: shaded anew for every view", &full, &mut rows, folder);
     keep_points("scalars", &rows);

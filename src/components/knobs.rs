@@ -16,8 +16,8 @@ pub enum Setting {
     Number(f32),
     /// Positions of the sample array, four a pixel.
     Positions(u32),
-    /// Rays for each smallest spacing of voxels; 0: of the pixels.
-    PerVoxel(u32),
+    /// Rays for each face of a voxel; 0: of the pixels.
+    PerVoxel(f64),
     /// On or off.
     Truth(bool),
     /// What steps over empty space.
@@ -216,10 +216,11 @@ pub static KNOBS: &[Knob] = &[
     Knob {
         key: "per_voxel",
         range: &[
-            Setting::PerVoxel(1),
-            Setting::PerVoxel(2),
-            Setting::PerVoxel(3),
-            Setting::PerVoxel(0),
+            Setting::PerVoxel(0.5),
+            Setting::PerVoxel(1.0),
+            Setting::PerVoxel(2.0),
+            Setting::PerVoxel(4.0),
+            Setting::PerVoxel(0.0),
         ],
         of_exact: true,
         bound: Bound::Nothing,

@@ -30,12 +30,12 @@ pub struct Sampling {
     /// ω_min: positions between the last rays, a power of two 1..=`coarsest`.
     #[schemars(range(min = 1, max = 32))]
     pub finest: u32,
-    /// Rays for each smallest spacing of a volume's voxels, 1..=4, that go through the voxels' own lattice, slice by slice, and
-    /// from there to the pixels; 0 = rays go through the pixels. Where more is seen than one volume of colors in a parallel
-    /// view (polygons that are traced, values, projections, dust, a depth cue, several volumes) they go through the pixels all
-    /// the same.
-    #[schemars(range(max = 4))]
-    pub per_voxel: u32,
+    /// Rays for each face of a voxel, of a cube of the smallest spacing, 0.5..=16, that go through the voxels' own lattice,
+    /// slice by slice, and from there to the pixels: 0.5 = through every second row of voxels; 0 = rays go through the pixels.
+    /// Where more is seen than one volume of colors in a parallel view (polygons that are traced, values, projections, dust, a
+    /// depth cue, several volumes) they go through the pixels all the same.
+    #[schemars(range(min = 0.0, max = 16.0))]
+    pub per_voxel: f64,
     /// Whether regions that outlines of polygons cross are split to one ray a pixel from the start, and those of polygons
     /// thinner than a pixel to `finest`.
     pub outlines: bool,
@@ -61,7 +61,7 @@ impl Default for Sampling {
             edge_tolerance: 0.02,
             coarsest: 8,
             finest: 1,
-            per_voxel: 0,
+            per_voxel: 0.0,
             outlines: true,
             texel: TexelKind::Auto,
             filter: Filter::Linear,

@@ -283,6 +283,15 @@ impl Check for Sampling {
                 ),
             );
         }
+        if self.per_voxel > 0.0 && self.per_voxel < 0.5 {
+            return wrong(
+                "per_voxel",
+                format!(
+                    "has `per_voxel` = {}; it must be 0, or from 0.5, every second row of voxels, on",
+                    self.per_voxel
+                ),
+            );
+        }
         Ok(())
     }
 }

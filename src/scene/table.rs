@@ -230,7 +230,8 @@ fn tell_knobs(schema: &mut Json) {
         let settings = knob.range.iter().filter_map(|setting| match setting {
             Setting::Times(_) => None,
             Setting::Number(number) => number.to_string().parse::<f64>().ok().map(Json::from),
-            Setting::Positions(number) | Setting::PerVoxel(number) => Some(json!(number)),
+            Setting::Positions(number) => Some(json!(number)),
+            Setting::PerVoxel(number) => Some(json!(number)),
             Setting::Truth(truth) => Some(json!(truth)),
             Setting::Skip(_) | Setting::Texel(_) => Some(json!(setting.to_string())),
         });

@@ -5,6 +5,7 @@ pub mod camera;
 pub mod composite;
 pub mod extent;
 pub mod lettering;
+mod met_rays;
 pub mod observer;
 pub mod overlay;
 pub mod picture;

@@ -9,8 +9,8 @@ pub struct VoxelRays {
     pub size: [usize; 2],
     /// C of each ray, linear associated RGBA, the first row first.
     pub colors: Vec<[f32; 4]>,
-    /// The first row and column of rays that met anything, and one past the last; none met anything where they are equal.
-    pub met: [[usize; 2]; 2],
+    /// Of each row: the first ray that met anything, and one past the last; none met anything where they are equal.
+    pub met: Vec<[u32; 2]>,
     /// Where they are in the picture.
     pub places: LatticePlaces,
 }
@@ -67,13 +67,13 @@ impl VoxelRays {
     /// Whether any ray met anything, however faint.
     #[must_use]
     pub fn meet_anything(&self) -> bool {
-        self.met[0][0] < self.met[1][0]
+        self.met.iter().any(|[from, to]| from < to)
     }
 
-    /// Bytes that their colors take.
+    /// Bytes that they take.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        size_of_val(&self.colors[..]) as u64
+        (size_of_val(&self.colors[..]) + size_of_val(&self.met[..])) as u64
     }
 }
 

@@ -1,9 +1,7 @@
 //! The number types that gel is kept in.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{
-    f32x8, f32x16, i32x8, i32x16, u8x16, u8x32, u16x8, u16x32, u32x4, u32x8, u32x16,
-};
+use fearless_simd::{f32x8, f32x16, i32x8, i32x16, u8x16, u16x8, u16x16, u32x4, u32x8, u32x16};
 use glam::Vec4;
 
 /// Cells along one edge of a brick.
@@ -39,8 +37,8 @@ pub trait Texel: Copy + Default + Send + Sync + 'static {
     fn is_seen(alpha: f32) -> bool;
     /// The channels of two texels, as stored numbers.
     fn channels<S: Simd>(simd: S, pair: &[Self; 2]) -> f32x8<S>;
-    /// The channels of eight texels, as stored numbers: of the first four, and of the others.
-    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>);
+    /// The channels of four texels, as stored numbers.
+    fn four<S: Simd>(simd: S, row: &[Self; 4]) -> f32x16<S>;
     /// What a stored number is multiplied by; 1 of floats, which alone may be above 1.
     const SCALE: f32;
 }
@@ -53,10 +51,8 @@ impl Texel for [f32; 4] {
     }
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>) {
-        let (low, high) = row.split_at(4);
-        let low = f32x16::from_slice(simd, low.as_flattened());
-        (low, f32x16::from_slice(simd, high.as_flattened()))
+    fn four<S: Simd>(simd: S, row: &[Self; 4]) -> f32x16<S> {
+        f32x16::from_slice(simd, row.as_flattened())
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self)
@@ -80,9 +76,9 @@ impl Texel for [u16; 4] {
     }
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>) {
-        let (low, high) = simd.widen_u16x32(u16x32::from_slice(simd, row.as_flattened()));
-        (sixteen_floats(low), sixteen_floats(high))
+    fn four<S: Simd>(simd: S, row: &[Self; 4]) -> f32x16<S> {
+        let row = u16x16::from_slice(simd, row.as_flattened());
+        sixteen_floats(simd.widen_u16x32(simd.combine_u16x16(row, row)).0)
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))
@@ -117,10 +113,10 @@ impl Texel for [u8; 4] {
     }
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    fn eight<S: Simd>(simd: S, row: &[Self; 8]) -> (f32x16<S>, f32x16<S>) {
-        let (low, high) = simd.widen_u8x32(u8x32::from_slice(simd, row.as_flattened()));
-        let (low, high) = simd.widen_u16x32(simd.combine_u16x16(low, high));
-        (sixteen_floats(low), sixteen_floats(high))
+    fn four<S: Simd>(simd: S, row: &[Self; 4]) -> f32x16<S> {
+        let (low, high) = simd.widen_u8x16(u8x16::from_slice(simd, row.as_flattened()));
+        let row = simd.combine_u16x8(low, high);
+        sixteen_floats(simd.widen_u16x32(simd.combine_u16x16(row, row)).0)
     }
     fn load(self) -> Vec4 {
         Vec4::from_array(self.map(f32::from))

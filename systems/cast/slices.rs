@@ -11,6 +11,7 @@
 mod beam;
 mod brick;
 mod cells;
+mod occupied;
 mod shear;
 mod tile;
 
@@ -25,10 +26,11 @@ use crate::schedule::Watch;
 use crate::view::camera::Camera;
 use crate::view::samples::{Counts, Layout, SampleArray};
 use crate::view::voxel_rays::VoxelRays;
-use crate::volume::gel::{GelBricks, Texel, Texels};
+use crate::volume::gel::{EMPTY, GelBricks, Texel, Texels};
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;
 use beam::Beam;
+use occupied::Occupied;
 use shear::Shear;
 use tile::{HIGH, Tile, WIDE};
 
@@ -43,7 +45,7 @@ pub(super) fn asked<'a>(
         && inputs.projections.is_empty()
         && inputs.shafts.is_empty()
         && gel.ambient.is_none();
-    (inputs.sampling.per_voxel > 0 && alone && camera.eye.is_none()).then_some((placed, &gel.lit))
+    (inputs.sampling.per_voxel > 0.0 && alone && camera.eye.is_none()).then_some((placed, &gel.lit))
 }
 
 /// Casts them for a picture of such a layout.
@@ -77,10 +79,11 @@ pub(super) fn bytes(
     sampling: &Sampling,
 ) -> Option<u64> {
     let shear = Shear::new(grid, camera, distance, sampling).ok()?;
-    let colors = shear.rays().iter().product::<usize>() * size_of::<[f32; 4]>();
+    let [across, down] = shear.rays();
+    let rays = down * (across * size_of::<[f32; 4]>() + size_of::<[u32; 2]>());
     let tables = shear.phases.iter().map(|slices| size_of_val(&slices[..])).sum::<usize>();
     let tiles = rayon::current_num_threads() * shear.phases.len() * tile::BYTES;
-    Some((colors + tables + tiles) as u64)
+    Some((rays + tables + tiles) as u64)
 }
 
 /// What rays go through, and how.
@@ -97,97 +100,99 @@ struct Sought<'a, T> {
     level: Level,
 }
 
+/// Rows of rays: their colors, and of each row the columns that met anything.
+type Rows<'r> = (&'r mut [[f32; 4]], &'r mut [[u32; 2]]);
+
 impl<T: Texel> Sought<'_, T> {
     /// All rays, in bands of tiles: no band depends on another.
     fn cast(&self, watch: &Watch) -> Result<(VoxelRays, Counts), Error> {
         let shear = self.shear;
         let size = shear.rays();
+        let occupied = self.occupied();
         let mut colors = vec![[0.0; 4]; size[0] * size[1]];
+        let mut met = vec![[0; 2]; size[1]];
         let high = HIGH * shear.parts[1];
-        let bands = colors.par_chunks_mut((size[0] * high).max(1)).enumerate();
+        let bands = colors.par_chunks_mut((size[0] * high).max(1)).zip(met.par_chunks_mut(high));
         watch.expect(bands.len() as u64);
-        let band = |(number, rows): (usize, &mut [[f32; 4]])| {
+        let band = |(number, rows): (usize, Rows<'_>)| {
             watch.check()?;
-            let done = self.band(number * HIGH, rows);
+            let done = self.band(number * HIGH, rows, &occupied);
             watch.advance();
             Ok(done)
         };
-        let done: Vec<Done> = bands.map(band).collect::<Result<_, Error>>()?;
-        let all = done.iter().fold(Done::nothing(), Done::join);
-        let met = if all.met[0][0] < all.met[1][0] { all.met } else { [[0; 2]; 2] };
-        Ok((VoxelRays { size, colors, met, places: shear.places }, all.counts))
+        let done: Vec<Counts> = bands.enumerate().map(band).collect::<Result<_, Error>>()?;
+        let mut counts = Counts::default();
+        for of_band in done {
+            counts += of_band;
+        }
+        Ok((VoxelRays { size, colors, met, places: shear.places }, counts))
     }
 
-    /// The rays from lattice row `top` on, tile by tile, written to their `rows`.
-    fn band(&self, top: usize, rows: &mut [[f32; 4]]) -> Done {
+    /// The bricks that are stored, and of interest.
+    fn occupied(&self) -> Occupied {
+        let (texels, pyramid) = (self.texels.slices(), self.pyramid.map(Pyramid::slices));
+        let [u, v, w] = self.shear.axes;
+        let counts = texels.counts();
+        Occupied::of([u, v, w].map(|axis| counts[axis]), |at| {
+            let mut brick = [0; 3];
+            (brick[u], brick[v], brick[w]) = (at[0], at[1], at[2]);
+            let stored = texels.stored_at(brick);
+            pyramid.map_or(stored != EMPTY, |pyramid| pyramid.words(stored).is_some())
+        })
+    }
+
+    /// The rays from row `top` of a phase on, tile by tile, written to their rows of colors and of columns that met anything.
+    fn band(
+        &self,
+        top: usize,
+        (rows, met): Rows<'_>,
+        occupied: &Occupied,
+    ) -> Counts {
         let shear = self.shear;
         let [across, parts] = [shear.rays()[0], shear.parts[0]];
-        let high = rows.len() / across / shear.parts[1];
+        let high = met.len() / shear.parts[1];
         let beam = Beam {
             shear,
             texels: self.texels.slices(),
+            occupied,
             pyramid: self.pyramid.map(Pyramid::slices),
             stop: self.stop,
             ratio: self.ratio,
         };
         let mut tiles: Vec<Tile> = shear.phases.iter().map(|_| Tile::default()).collect();
-        let (mut done, level) = (Done::nothing(), self.level);
+        let (mut counts, level) = (Counts::default(), self.level);
         for left in (0..shear.count[0]).step_by(WIDE) {
             let size = [WIDE.min(shear.count[0] - left), high];
-            let first = [left as i64 + shear.first[0], top as i64 + shear.first[1]];
+            let [u, v] = [left, top * shear.apart].map(|n| n as i64);
+            let first = [u + shear.first[0], v + shear.first[1]];
             for tile in &mut tiles {
                 tile.open(size);
             }
-            dispatch!(level, simd => beam.pass(simd, &mut tiles, (first, size), &mut done.counts));
-            done.counts.rays += (size[0] * size[1] * tiles.len()) as u64;
+            dispatch!(level, simd => beam.pass(simd, &mut tiles, (first, size), &mut counts));
+            counts.rays += (size[0] * size[1] * tiles.len()) as u64;
             for (tile, number) in tiles.iter().zip(0..).filter(|(tile, _)| tile.is_met()) {
                 let (a, b) = (number % parts, number / parts);
                 for j in 0..high {
                     let row = j * shear.parts[1] + b;
-                    let colors = tile.colors(j, size[0], self.stop);
-                    let written = &mut rows[row * across..][..across];
-                    for (i, color) in colors.enumerate() {
+                    let (written, met) = (&mut rows[row * across..][..across], &mut met[row]);
+                    for (i, color) in tile.colors(j, size[0], self.stop).enumerate() {
                         if let Some(color) = color {
                             let column = (left + i) * parts + a;
                             written[column] = color;
-                            done.note([column, top * shear.parts[1] + row]);
+                            *met = widened(*met, column as u32);
                         }
                     }
                 }
             }
         }
-        done
+        counts
     }
 }
 
-/// What some rays met, and what that took.
-struct Done {
-    /// The first column and row of a ray that met anything, and one past the last.
-    met: [[usize; 2]; 2],
-    counts: Counts,
-}
-
-impl Done {
-    fn nothing() -> Self {
-        Self { met: [[usize::MAX; 2], [0; 2]], counts: Counts::default() }
-    }
-
-    /// That a ray met something.
-    fn note(&mut self, at: [usize; 2]) {
-        self.widen([at, at.map(|n| n + 1)]);
-    }
-
-    fn widen(&mut self, [low, high]: [[usize; 2]; 2]) {
-        let [least, most] = self.met;
-        let least = [least[0].min(low[0]), least[1].min(low[1])];
-        self.met = [least, [most[0].max(high[0]), most[1].max(high[1])]];
-    }
-
-    fn join(mut self, other: &Self) -> Self {
-        self.widen(other.met);
-        self.counts += other.counts;
-        self
-    }
+/// Columns `[from, to)`, and another.
+fn widened([from, to]: [u32; 2], column: u32) -> [u32; 2] {
+    let from = if from < to { from.min(column) } else { column };
+    [from, to.max(column + 1)]
 }
 
 #[cfg(test)]

@@ -91,7 +91,7 @@ fn voxel_rays(
     let volumes = volumes(world);
     let [volume] = &volumes[..] else { return None };
     let has_gel = !matches!(volume.content, Content::Values | Content::Projected);
-    if sampling.per_voxel == 0 || !alone || !has_gel {
+    if sampling.per_voxel <= 0.0 || !alone || !has_gel {
         return None;
     }
     let distance = sampling.distance_mm.or(smallest_spacing([volume.grid]))?;

@@ -24,7 +24,7 @@ fn even(side: usize) -> Mixture {
     Mixture::of(grid, homogeneous(&grid, [0.2, 0.5, 0.1, 0.05]))
 }
 
-fn through_voxels(per_voxel: u32) -> Sampling {
+fn through_voxels(per_voxel: f64) -> Sampling {
     Sampling { per_voxel, ..sampling_of_the_head() }
 }
 
@@ -43,14 +43,16 @@ fn a_head_is_near_its_exact_picture_from_all_sides_and_nearer_with_more_rays() {
             shown.render(turn, sampling)
         };
         let exact = turned(sampling_of_the_head().exact()).picture;
-        let errors = [1, 2].map(|rays| {
+        let errors = [0.5, 1.0, 2.0, 4.0].map(|rays| {
             let made = turned(through_voxels(rays));
             assert!(made.array.voxel_rays.is_some());
             assert_sound(&made.picture, "rays through voxels");
             compare(&exact, &made.picture).unwrap().linear.psnr_db
         });
         println!("{azimuth} {elevation}: {errors:.1?} dB");
-        assert!(errors[0] > 34.0 && errors[1] > 37.0, "{azimuth} {elevation}: {errors:?}");
+        let least = [28.0, 34.0, 35.0, 37.0];
+        let is_near = errors.iter().zip(least).all(|(error, least)| *error > least);
+        assert!(is_near && errors.is_sorted(), "{azimuth} {elevation}: {errors:?}");
     }
 }
 
@@ -59,7 +61,7 @@ fn threads_and_skipping_change_no_bit_of_rays_through_voxels() {
     let mut held = planes();
     let shown: &mut Shown = &mut held;
     for texel in [TexelKind::F32, TexelKind::U16, TexelKind::U8] {
-        let settings = Sampling { texel, stop_at: 0.05, ..through_voxels(2) };
+        let settings = Sampling { texel, stop_at: 0.05, ..through_voxels(4.0) };
         let mut on = |threads: usize, skip: Skip| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let size = |size: u32| move |view: &mut View| view.size = [size; 2];
@@ -78,10 +80,10 @@ fn threads_and_skipping_change_no_bit_of_rays_through_voxels() {
 fn a_part_of_the_volume_that_is_magnified_takes_its_own_rays_alone() {
     let mut shown = planes();
     let near = |view: &mut View| (view.height_mm, view.size) = (Some(60.0), [100; 2]);
-    let by_pixels = shown.render(near, Sampling { coarsest: 4, finest: 4, ..through_voxels(0) });
-    let made = shown.render(near, through_voxels(2));
-    shown.render(|view: &mut View| view.height_mm = None, through_voxels(1));
-    // Of 256 × 256 × 113 voxels, two rays along each, those within 60 mm and a few beside them.
+    let by_pixels = shown.render(near, Sampling { coarsest: 4, finest: 4, ..through_voxels(0.0) });
+    let made = shown.render(near, through_voxels(4.0));
+    shown.render(|view: &mut View| view.height_mm = None, through_voxels(1.0));
+    // Of 256 × 256 × 113 voxels, four rays a face, those within 60 mm and a few beside them.
     assert!(made.array.counts.rays < 40_000, "{:?}", made.array.counts);
     let error = compare(&by_pixels.picture, &made.picture).unwrap().linear.psnr_db;
     assert!(error > 30.0, "{error} dB");
@@ -92,10 +94,10 @@ fn what_is_even_is_even_in_every_pixel_filter_and_size() {
     for filter in [PixelFilter::Box, PixelFilter::Tent, PixelFilter::Mitchell] {
         for height in [8.0, 40.0] {
             let mut mixture = even(24).seen((90.0, 0.0), 16, height);
-            mixture.sampling = Sampling { pixel_filter: filter, ..through_voxels(1) };
+            mixture.sampling = Sampling { pixel_filter: filter, ..through_voxels(1.0) };
             mixture.sampling.distance_mm = Some(0.5);
             let by_voxels = mixture.render();
-            mixture.sampling.per_voxel = 0;
+            mixture.sampling.per_voxel = 0.0;
             let by_pixels = mixture.render();
             let middle = 8 * 16 + 8;
             let pixels = [&by_voxels, &by_pixels].map(|made| made.picture.pixels[middle]);
@@ -115,14 +117,14 @@ fn beside_polygons_and_in_perspective_rays_go_through_pixels() {
     perspective.view.field_of_view = Some(30.0);
     for mut mixture in [beside, perspective] {
         let without = mixture.render();
-        mixture.sampling.per_voxel = 2;
+        mixture.sampling.per_voxel = 4.0;
         let with = mixture.render();
         assert!(with.array.voxel_rays.is_none());
         assert!(bits(&with.picture) == bits(&without.picture));
     }
     // What is seen of the volume alone is asked for as stated, and tells where its rays were.
     let mut alone = volume();
-    alone.sampling.per_voxel = 1;
+    alone.sampling.per_voxel = 1.0;
     let made = alone.render();
     assert!(made.array.meets_anything() && made.array.voxel_rays.is_some());
     let map = made.array.ray_map();

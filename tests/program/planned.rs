@@ -225,7 +225,7 @@ fn the_text_of_a_scene_is_in_the_plan_for_as_long_as_it_is_read() {
 fn rays_through_voxels_are_in_the_plan() {
     let place = Place::new();
     let scene = gelray::scene::Source::embedded("figure_06b").unwrap().text;
-    place.write("voxels.toml", scene.replace("sampling = {", "sampling = { per_voxel = 2,"));
+    place.write("voxels.toml", scene.replace("sampling = {", "sampling = { per_voxel = 4,"));
     assert!(scene.contains("sampling = {"), "{scene}");
     let [bound, _] = against_peak(&place, "voxels.toml");
     assert!((1.0..1.5).contains(&bound), "{bound}");

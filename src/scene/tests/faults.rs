@@ -84,6 +84,8 @@ fn numbers_out_of_their_range_are_pointed_at() {
         (VIEW, "sampling = { coarsest = 3 }", "1, 2, 4, 8, 16 or 32"),
         (VIEW, "sampling = { coarsest = 64 }", "at most 32"),
         (VIEW, "sampling = { coarsest = 2, finest = 4 }", "swap"),
+        (VIEW, "sampling = { per_voxel = 0.25 }", "from 0.5"),
+        (VIEW, "sampling = { per_voxel = 17 }", "at most 16"),
         ("view = { elevation = 91 }", "", "at most 90"),
         ("view = { height_mm = 0 }", "", "above 0"),
         ("view = { size = [0, 1] }", "", "at least 1"),

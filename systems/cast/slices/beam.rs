@@ -5,6 +5,7 @@ use fearless_simd::Simd;
 
 use super::brick::Brick;
 use super::cells::{turned, within};
+use super::occupied::Occupied;
 use super::shear::{Shear, Slice};
 use super::tile::Tile;
 use crate::view::samples::Counts;
@@ -15,6 +16,8 @@ use crate::volume::pyramid::PyramidSlices;
 pub(super) struct Beam<'a, T> {
     pub shear: &'a Shear,
     pub texels: TexelSlices<'a, T>,
+    /// Which bricks have anything.
+    pub occupied: &'a Occupied,
     /// Which cells are interesting; `None`: all that are stored.
     pub pyramid: Option<PyramidSlices<'a>>,
     /// A ray stops when no more than this comes through of what is behind.
@@ -70,29 +73,39 @@ impl<T: Texel> Beam<'_, T> {
         layer: &Layer,
         counts: &mut Counts,
     ) {
-        let Shear { axes, ahead, .. } = self.shear;
-        let edge = CELLS as i64;
-        let bricks = axes.map(|axis| self.texels.counts()[axis] as i64);
+        let Shear { axes, ahead, apart, .. } = self.shear;
+        let (edge, apart) = (CELLS as i64, [1, *apart as i64]);
+        let counted = self.texels.counts();
+        let bricks = axes.map(|axis| counted[axis] as i64);
         let low = [0, 1].map(|axis| (first[axis] + layer.least[axis]).div_euclid(edge).max(0));
         let high = [0, 1].map(|axis| {
-            let last = first[axis] + size[axis] as i64 - 1 + layer.most[axis];
+            let last = first[axis] + apart[axis] * (size[axis] as i64 - 1) + layer.most[axis];
             last.div_euclid(edge).min(bricks[axis] - 1)
         });
         // The rays of a tile that a brick may be met by, along one axis.
         let reached = |axis: usize, brick: i64| {
             let from = edge * brick - first[axis];
             let [from, to] = [from - layer.most[axis], from + edge - layer.least[axis]];
-            [from.max(0) as usize, to.clamp(0, size[axis] as i64) as usize]
+            let to = to.max(0) as usize;
+            [from.max(0) as usize / apart[axis] as usize, to.div_ceil(apart[axis] as usize)]
+                .map(|at| at.min(size[axis]))
         };
+        if low[0] > high[0] {
+            return;
+        }
+        let along = [low[0], high[0]].map(|u| u as usize);
         for v in 0..=high[1] - low[1] {
             let v = if ahead[1] { low[1] + v } else { high[1] - v };
             let rows = reached(1, v);
-            if rows[0] >= rows[1] {
+            let mut bricks = self.occupied.among(along, [v, layer.number].map(|at| at as usize));
+            if rows[0] >= rows[1] || bricks == 0 {
                 continue;
             }
             let open = tiles.iter().fold(0, |any, tile| any | tile.open_in(rows));
-            for u in 0..=high[0] - low[0] {
-                let u = if ahead[0] { low[0] + u } else { high[0] - u };
+            while bricks != 0 {
+                let behind = if ahead[0] { bricks.trailing_zeros() } else { bricks.ilog2() };
+                bricks &= !(1 << behind);
+                let u = low[0] + i64::from(behind);
                 let columns = reached(0, u);
                 if columns[0] < columns[1] && open & Tile::columns(columns) != 0 {
                     self.pass_brick(simd, tiles, (first, rows, columns), ([u, v], layer), counts);
@@ -142,6 +155,7 @@ impl<T: Texel> Beam<'_, T> {
                 texels: self.texels.texels(stored),
                 cells,
                 first: [CELLS as i64 * u - first[0], CELLS as i64 * v - first[1]],
+                apart: self.shear.apart,
                 is_last: inside != u64::MAX,
                 scale: self.texels.scale(),
                 stop: self.stop,

@@ -1,24 +1,24 @@
-//! Rays through the slices of one brick, a row of eight at a time.
+//! Rays through the slices of one brick, four of a row at a time.
 //!
 //! Compiled anew for each set of instructions and each axis that slices lie across; a product is always rounded before it is
 //! added to, so that no bit depends on which set it is.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
-use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x16, u64x8};
 use glam::Vec4;
 
 use super::shear::Slice;
-use super::tile::{SIDE, Tile, Window, fourth};
+use super::tile::{Tile, Window, fourth};
 use crate::view::composite::{recolor, thicken_each};
 use crate::view::samples::Counts;
 use crate::volume::gel::{CELLS, ROW, TEXELS, Texel};
 
 /// Slices that are looked at together.
 const TOGETHER: usize = 16;
-/// From a row's first texel to its last, in a brick whose rows lie along u: of the two rows of two layers.
-const ALONG: usize = ROW * ROW + ROW + SIDE + 1;
-/// From the first texel of four rays to their last, where rows lie along w.
+/// From the first texel of four rays to their last, in a brick whose rows lie along u: of the two rows of two layers.
+const ALONG: usize = ROW * ROW + ROW + 4 + 1;
+/// The same where rows lie along w.
 const ACROSS: usize = ROW * ROW + 4 * ROW + 2;
 
 /// By bits of four rays: 1 in the channels of those that are set.
@@ -40,6 +40,8 @@ pub(super) struct Brick<'a, T> {
     pub cells: &'a [u64; CELLS],
     /// Its first cell, counted along u and v from the tile's first ray as if that leaned nowhere.
     pub first: [i64; 2],
+    /// Voxels between rows of rays.
+    pub apart: usize,
     /// Whether some of its cells lie beyond the last voxels.
     pub is_last: bool,
     /// What texels are multiplied by.
@@ -62,134 +64,93 @@ impl<T: Texel> Brick<'_, T> {
     ) {
         for slices in slices.chunks(TOGETHER) {
             // What is hidden or empty is found of all at first: a branch for each would be a guess.
-            let (mut found, mut left) = ([0; TOGETHER], 0_u32);
+            let (mut found, mut windows) = ([0; TOGETHER], [Window::default(); TOGETHER]);
             for (n, slice) in slices.iter().enumerate() {
                 let cells = self.cells[slice.cell as usize % CELLS];
-                let open = self.window(slice).map_or(0, |window| tile.left(simd, window));
-                found[n] = cells & open;
-                left |= u32::from(found[n] != 0) << n;
+                if let Some(window) = self.window(slice) {
+                    found[n] = cells & tile.left(simd, window);
+                    windows[n] = window;
+                }
             }
-            while left != 0 {
-                let n = left.trailing_zeros() as usize;
-                left &= left - 1;
-                if let Some(window) = self.window(&slices[n]) {
-                    self.slice::<S, W>(simd, &slices[n], (window, found[n]), tile, counts);
+            for (n, mut fours) in fours(simd, &found).into_iter().enumerate() {
+                while fours != 0 {
+                    let bit = fours.trailing_zeros() as usize;
+                    fours &= fours - 1;
+                    let (n, four) = (4 * n + bit / 16, bit % 16);
+                    let Some(slice) = slices.get(n) else { continue };
+                    let at = [4 * (four % 2), four / 2];
+                    let Some(mut rays) = tile.four(windows[n], at) else { continue };
+                    let here = found[n] >> (4 * four) & rays.left();
+                    if here != 0 {
+                        counts.samples += u64::from(here.count_ones());
+                        let slabs = self.slabs::<S, W>(simd, at, (slice, here));
+                        rays.under(simd, slabs, self.stop);
+                    }
                 }
             }
         }
     }
 
+    /// Where its rays on a slice are in a tile.
     #[inline(always)]
     fn window(&self, slice: &Slice) -> Option<Window> {
-        Window::new([self.first[0] - slice.shift[0], self.first[1] - slice.shift[1]])
+        let [u, v] = [self.first[0] - slice.shift[0], self.first[1] - slice.shift[1]];
+        Window::new([u, v], self.apart)
     }
 
-    /// Takes rays through one slice, in those `cells`.
+    /// The slabs of four rays on a slice, the first in the cell `[u, v]` of it: associated colour and, below 0, opacity. Of
+    /// those that are not `here` they are clear, for their cells are, or lie beyond the last voxels.
     #[inline(always)]
-    fn slice<S: Simd, const W: usize>(
+    fn slabs<S: Simd, const W: usize>(
         &self,
         simd: S,
-        slice: &Slice,
-        (window, mut cells): (Window, u64),
-        tile: &mut Tile,
-        counts: &mut Counts,
-    ) {
+        [u, v]: [usize; 2],
+        (slice, here): (&Slice, u64),
+    ) -> f32x16<S> {
         let layer = slice.cell as usize % CELLS;
-        while cells != 0 {
-            let v = cells.trailing_zeros() as usize / SIDE;
-            let here = cells >> (SIDE * v) & 0xff;
-            cells &= !(0xff << (SIDE * v));
-            let Some(mut row) = tile.row(window, v) else { continue };
-            let here = here & row.left();
-            if here == 0 {
-                continue;
-            }
-            counts.samples += u64::from(here.count_ones());
-            if W == 0 {
-                self.row_across(simd, layer + v * ROW * ROW, (slice, here), &mut row);
-            } else {
-                let [next_v, next_w] = if W == 2 { [ROW, ROW * ROW] } else { [ROW * ROW, ROW] };
-                let first = layer * next_w + v * next_v;
-                self.row_along::<S, W>(simd, first, (slice, here), &mut row);
-            }
+        let corners = match W {
+            2 => self.along::<S, W>(simd, layer * ROW * ROW + v * ROW + u),
+            1 => self.along::<S, W>(simd, layer * ROW + v * ROW * ROW + u),
+            _ => self.across(simd, layer + v * ROW * ROW + u * ROW),
+        };
+        match corners {
+            Some(corners) => self.between(simd, corners, (&slice.weights, here)),
+            None => f32x16::splat(simd, 0.0),
         }
     }
 
-    /// Of a brick whose rows of texels lie along u, from its texel `first` on.
+    /// The texels around four rays, u fastest, of a brick whose rows of texels lie along u, from its texel `first` on.
     #[inline(always)]
-    fn row_along<S: Simd, const W: usize>(
-        &self,
-        simd: S,
-        first: usize,
-        (slice, here): (&Slice, u64),
-        row: &mut super::tile::Row<'_>,
-    ) {
-        let Some(texels) = self.texels.get(first..).and_then(<[T]>::first_chunk::<ALONG>) else {
-            return;
-        };
-        macro_rules! eight {
+    fn along<S: Simd, const W: usize>(&self, simd: S, first: usize) -> Option<[f32x16<S>; 8]> {
+        let texels: &[T; ALONG] = self.texels.get(first..)?.first_chunk()?;
+        macro_rules! four {
             ($first:expr) => {
-                match texels[$first..].first_chunk() {
-                    Some(eight) => T::eight(simd, eight),
-                    None => return,
-                }
+                T::four(simd, texels[$first..].first_chunk()?)
             };
         }
         let (v, w) = if W == 2 { (ROW, ROW * ROW) } else { (ROW * ROW, ROW) };
-        let [a, b, c, d] = [eight!(0), eight!(1), eight!(v), eight!(v + 1)];
-        let [e, f, g, h] = [eight!(w), eight!(w + 1), eight!(v + w), eight!(v + w + 1)];
-        if here & 0x0f != 0 {
-            let corners = [a.0, b.0, c.0, d.0, e.0, f.0, g.0, h.0];
-            let slabs = self.slabs(simd, corners, (&slice.weights, here));
-            row.under(simd, false, slabs, self.stop);
-        }
-        if here & 0xf0 != 0 {
-            let corners = [a.1, b.1, c.1, d.1, e.1, f.1, g.1, h.1];
-            let slabs = self.slabs(simd, corners, (&slice.weights, here >> 4));
-            row.under(simd, true, slabs, self.stop);
-        }
+        let [a, b, c, d] = [four!(0), four!(1), four!(v), four!(v + 1)];
+        Some([a, b, c, d, four!(w), four!(w + 1), four!(v + w), four!(v + w + 1)])
     }
 
-    /// Of a brick whose rows of texels lie along w.
+    /// Those of a brick whose rows of texels lie along w.
     #[inline(always)]
-    fn row_across<S: Simd>(
-        &self,
-        simd: S,
-        first: usize,
-        (slice, here): (&Slice, u64),
-        row: &mut super::tile::Row<'_>,
-    ) {
-        for last in [false, true] {
-            let here = if last { here >> 4 } else { here & 0xf };
-            if here == 0 {
-                continue;
-            }
-            let first = first + if last { 4 * ROW } else { 0 };
-            let Some(texels) = self.texels.get(first..).and_then(<[T]>::first_chunk::<ACROSS>)
-            else {
-                return;
-            };
-            let none = T::default();
-            macro_rules! four {
-                ($first:expr) => {{
-                    let [a, b] = [texels[$first], texels[$first + ROW]];
-                    let [c, d] = [texels[$first + 2 * ROW], texels[$first + 3 * ROW]];
-                    T::eight(simd, &[a, b, c, d, none, none, none, none]).0
-                }};
-            }
-            let (u, v) = (ROW, ROW * ROW);
-            let near = [four!(0), four!(u), four!(v), four!(u + v)];
-            let far = [four!(1), four!(u + 1), four!(v + 1), four!(u + v + 1)];
-            let corners = [near[0], near[1], near[2], near[3], far[0], far[1], far[2], far[3]];
-            let slabs = self.slabs(simd, corners, (&slice.weights, here));
-            row.under(simd, last, slabs, self.stop);
+    fn across<S: Simd>(&self, simd: S, first: usize) -> Option<[f32x16<S>; 8]> {
+        let texels: &[T; ACROSS] = self.texels.get(first..)?.first_chunk()?;
+        macro_rules! four {
+            ($first:expr) => {{
+                let [a, b] = [texels[$first], texels[$first + ROW]];
+                T::four(simd, &[a, b, texels[$first + 2 * ROW], texels[$first + 3 * ROW]])
+            }};
         }
+        let (u, v) = (ROW, ROW * ROW);
+        let [a, b, c, d] = [four!(0), four!(u), four!(v), four!(u + v)];
+        Some([a, b, c, d, four!(1), four!(u + 1), four!(v + 1), four!(u + v + 1)])
     }
 
-    /// The slabs of four rays by the texels around them: associated colour and, below 0, opacity. Of rays that are not `here`
-    /// they are clear, for their cells are, or lie beyond the last voxels.
+    /// The slabs of four rays between the texels around them.
     #[inline(always)]
-    fn slabs<S: Simd>(
+    fn between<S: Simd>(
         &self,
         simd: S,
         [a, b, c, d, e, f, g, h]: [f32x16<S>; 8],
@@ -228,5 +189,46 @@ impl<T: Texel> Brick<'_, T> {
             parts[ray] = [recolor(alone[ray], thick[ray], self.ratio) as f32; 4];
         }
         slabs * f32x16::from_slice(simd, parts.as_flattened())
+    }
+}
+
+/// Which fours of the bits of each word have any set: 16 bits a word, four words in one.
+#[inline(always)]
+fn fours<S: Simd>(simd: S, words: &[u64; TOGETHER]) -> [u64; TOGETHER / 4] {
+    let mut fours = [0; TOGETHER / 4];
+    for (n, eight) in words.chunks_exact(8).enumerate() {
+        let mut word = u64x8::from_slice(simd, eight);
+        word = word | (word >> 1);
+        word = (word | (word >> 2)) & 0x1111_1111_1111_1111;
+        word = (word | (word >> 3)) & 0x0303_0303_0303_0303;
+        word = (word | (word >> 6)) & 0x000f_000f_000f_000f;
+        word = (word | (word >> 12)) & 0x0000_00ff_0000_00ff;
+        word = (word | (word >> 24)) & 0xffff;
+        for (k, word) in word.as_slice().iter().enumerate() {
+            fours[2 * n + k / 4] |= word << (16 * (k % 4));
+        }
+    }
+    fours
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::volume::field::tests::levels;
+    use fearless_simd::dispatch;
+
+    #[test]
+    fn fours_of_bits_are_found_wherever_one_is_set() {
+        let seed = |n: usize| (n as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let words: [u64; TOGETHER] = std::array::from_fn(|n| seed(n) & seed(n).rotate_left(23));
+        for level in levels() {
+            let found = dispatch!(level, simd => fours(simd, &words));
+            for (n, word) in words.iter().enumerate() {
+                for four in 0..16 {
+                    let any = found[n / 4] >> (16 * (n % 4) + four) & 1 == 1;
+                    assert_eq!(any, word >> (4 * four) & 0xf != 0, "{level:?} {n} {four}");
+                }
+            }
+        }
     }
 }

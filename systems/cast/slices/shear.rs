@@ -3,7 +3,7 @@
 //! Of a volume's axes w is the one along which a ray crosses most voxels; u and v are the others, u the one that lies in
 //! rows of memory where it can. A ray is at u = U + σ_u (w − w_0), with σ_u at most 1: on a plane of constant w rays whose U
 //! are 1 apart are a voxel apart. Where more than a ray a voxel is asked for, lattices are laid between one another: their
-//! *phases* differ in the fraction of U and V.
+//! *phases* differ in the fraction of U and V. Where fewer are, every second row of rays is left out.
 
 use glam::{DVec2, DVec3};
 
@@ -13,7 +13,7 @@ use crate::view::voxel_rays::LatticePlaces;
 use crate::volume::grid::Grid;
 
 /// Most rays along an axis of a voxel, however much longer it is than its other axes.
-const MOST_PARTS: f64 = 8.0;
+const MOST_PARTS: usize = 8;
 /// Most planes of samples: each phase has a table of them.
 const MOST_PLANES: f64 = 262_144.0;
 
@@ -23,9 +23,11 @@ pub(super) struct Shear {
     pub axes: [usize; 3],
     /// The lattice's phases along u and v.
     pub parts: [usize; 2],
+    /// Voxels between rows of rays along v: 2 where every second is left out, and 1 elsewhere.
+    pub apart: usize,
     /// The least whole U and V of rays.
     pub first: [i64; 2],
-    /// How many of them there are.
+    /// How many of them a phase has.
     pub count: [usize; 2],
     /// Voxels along u, v and w.
     pub size: [usize; 3],
@@ -71,9 +73,9 @@ impl Shear {
         let slope = [0, 1].map(|axis| step[axes[axis]] / step[w]);
         let middle = last / 2.0;
         let spacing = grid.spacing();
-        let per_voxel = f64::from(sampling.per_voxel) / spacing.min_element();
-        let parts =
-            [0, 1].map(|axis| (spacing[axes[axis]] * per_voxel).round().clamp(1.0, MOST_PARTS));
+        let wanted = [0, 1]
+            .map(|axis| sampling.per_voxel.sqrt() * spacing[axes[axis]] / spacing.min_element());
+        let (parts, apart) = rays_of_a_voxel(wanted);
         // From a window position to U and V.
         let lattice = |window: DVec2| {
             let at = to_index.transform_point3(camera.origin(window)).to_array();
@@ -81,21 +83,25 @@ impl Shear {
         };
         let margin = sampling.pixel_filter.reach() as f64;
         let seen = LatticePlaces::of(lattice).bounds(camera.size, margin);
+        let steps = [1, apart];
         let reached = [0, 1].map(|axis| {
             let lean = slope[axis].abs() * middle;
-            reached((size[axis] - 1) as f64, lean, seen.map(|end| end[axis]))
+            let last = (size[axis] - 1) as f64;
+            reached((last, lean), seen.map(|end| end[axis]), steps[axis])
         });
         let first = reached.map(|(first, _)| first);
+        let parts_of = [0, 1].map(|axis| parts[axis] as f64 / steps[axis] as f64);
         let from = DVec2::from(first.map(|first| first as f64));
         Ok(Self {
             axes,
-            parts: parts.map(|parts| parts as usize),
+            parts,
+            apart,
             first,
             count: reached.map(|(_, count)| count),
             size,
             ahead: [0, 1].map(|axis| step[axes[axis]] > 0.0),
             phases: phases(&planes, parts, (slope, middle)),
-            places: LatticePlaces::of(|window| (lattice(window) - from) * DVec2::from(parts)),
+            places: LatticePlaces::of(|window| (lattice(window) - from) * DVec2::from(parts_of)),
         })
     }
 
@@ -116,24 +122,42 @@ fn planes(last: f64, step: f64) -> Option<Vec<f64>> {
     (count <= MOST_PLANES).then(|| (0..count as usize).map(place).collect())
 }
 
-/// The first of the whole U of rays, and how many there are, between 0 and the `last` voxel and as far as rays `lean` from
-/// there on either side, and not further than is seen.
-fn reached(last: f64, lean: f64, [least, most]: [f64; 2]) -> (i64, usize) {
-    let first = (-lean).max(least - 2.0).floor() as i64 - 1;
-    let end = (last + lean).min(most + 2.0).ceil() as i64 + 2;
-    (first, (end - first).max(0) as usize)
+/// How many rays a voxel has along u and v, and how many voxels rows of them are apart: as nearly as can be so many as are
+/// `wanted` along both axes together, of those the ones most nearly as far apart along one as along the other, and of those the
+/// fewest along either.
+fn rays_of_a_voxel(wanted: [f64; 2]) -> ([usize; 2], usize) {
+    let wanted = wanted.map(|rays| rays.min(MOST_PARTS as f64));
+    let several = (1..=MOST_PARTS).flat_map(|u| (1..=MOST_PARTS).map(move |v| ([u, v], 1)));
+    let all = several.chain((1..=MOST_PARTS).map(|u| ([u, 1], 2)));
+    let off = |&([u, v], apart): &([usize; 2], usize)| {
+        let more = [u as f64 / wanted[0], v as f64 / apart as f64 / wanted[1]].map(f64::ln);
+        // To a millionth: what differs by rounding is alike.
+        let off = |off: f64| (off.abs() * 1e6).round() as u64;
+        (off(more[0] + more[1]), off(more[0] - more[1]), u.max(v))
+    };
+    all.min_by_key(off).unwrap_or(([1; 2], 1))
+}
+
+/// The first of the whole U of rays, `step` apart, and how many there are, between 0 and the `last` voxel and as far as rays
+/// `lean` from there on either side, and not further than is seen; two more on each side, for what is interpolated.
+fn reached((last, lean): (f64, f64), [least, most]: [f64; 2], step: usize) -> (i64, usize) {
+    let more = 2 * step as i64;
+    let first = (-lean).max(least).floor() as i64 - more;
+    let end = (last + lean).min(most).ceil() as i64 + more + 1;
+    (first, ((end - first).max(0) as usize).div_ceil(step))
 }
 
 /// The planes as each phase passes them.
-fn phases(planes: &[f64], parts: [f64; 2], (slope, middle): ([f64; 2], f64)) -> Vec<Vec<Slice>> {
+fn phases(planes: &[f64], parts: [usize; 2], (slope, middle): ([f64; 2], f64)) -> Vec<Vec<Slice>> {
     let of = |phase: DVec2| {
         let from = |plane: f64| phase + (plane - middle) * DVec2::from(slope);
         planes.iter().map(|&plane| slice(plane, from(plane))).collect()
     };
     let row = |b: usize| {
-        (0..parts[0] as usize).map(move |a| DVec2::new(a as f64, b as f64) / DVec2::from(parts))
+        let part = move |a: usize| [a as f64 / parts[0] as f64, b as f64 / parts[1] as f64];
+        (0..parts[0]).map(move |a| DVec2::from(part(a)))
     };
-    (0..parts[1] as usize).flat_map(row).map(of).collect()
+    (0..parts[1]).flat_map(row).map(of).collect()
 }
 
 /// The plane at `w`, where a ray of U = V = 0 is at `from`.
@@ -161,5 +185,22 @@ mod tests {
         assert!((slice.weights.iter().sum::<f32>() - 1.0).abs() < 1e-6);
         assert!((slice.weights[0] - 0.5 * 0.25 * 0.75).abs() < 1e-6);
         assert!((slice.weights[7] - 0.5 * 0.75 * 0.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn as_many_rays_as_are_asked_for_are_spread_evenly() {
+        let of = |rays: f64, spacing: [f64; 2]| {
+            rays_of_a_voxel(spacing.map(|spacing| rays.sqrt() * spacing))
+        };
+        assert_eq!(of(0.5, [1.0; 2]), ([1, 1], 2));
+        assert_eq!(of(1.0, [1.0; 2]), ([1, 1], 1));
+        assert_eq!(of(4.0, [1.0; 2]), ([2, 2], 1));
+        assert_eq!(of(16.0, [1.0; 2]), ([4, 4], 1));
+        assert_eq!(of(2.0, [1.0; 2]).0.iter().product::<usize>(), 2);
+        // Of voxels twice as long along v a face is twice as large.
+        assert_eq!(of(1.0, [1.0, 2.0]), ([1, 2], 1));
+        assert_eq!(of(0.5, [1.0, 2.0]), ([1, 1], 1));
+        assert_eq!(of(2.0, [1.0, 2.0]), ([2, 2], 1));
+        assert_eq!(of(1.0, [1.0, 1e9]).0, [1, MOST_PARTS]);
     }
 }

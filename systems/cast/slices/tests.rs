@@ -15,7 +15,7 @@ use crate::volume::field::tests::levels;
 struct Case {
     grid: Grid,
     view: View,
-    per_voxel: u32,
+    per_voxel: f64,
     /// Δ in smallest spacings, and against the opacity unit.
     step: f64,
     ratio: f64,
@@ -31,7 +31,8 @@ fn cases() -> impl Strategy<Value = Case> {
     let view = (angle(), angle(), angle(), 1..=24_u32);
     let ratio = prop_oneof![Just(1.0), Just(2.0), Just(0.5), 0.3..3.0];
     let stop = prop_oneof![Just(0.0_f32), Just(0.02), 0.0..0.5_f32];
-    let sampled = (1..=3_u32, prop_oneof![Just(1.0), 0.3..2.5], ratio, stop);
+    let rays = prop_oneof![Just(0.5), Just(1.0), Just(2.0), 0.5..9.0];
+    let sampled = (rays, prop_oneof![Just(1.0), 0.3..2.5], ratio, stop);
     (placed, view, sampled, any::<u64>(), prop_oneof![Just(3_u64), Just(30), Just(100)]).prop_map(
         |((size, spacing, shear, flips), view, (per_voxel, step, ratio, stop), seed, held)| {
             let flip = |axis: usize| if flips >> axis & 1 == 1 { -1.0 } else { 1.0 };
@@ -200,7 +201,7 @@ fn bytes_are_known_before_rays_are_cast() {
     let grid = grid.unwrap();
     let view = View { azimuth: 30.0, elevation: 20.0, size: [64; 2], ..View::default() };
     let camera = Camera::new(&view, &Extent::of(grid.corners()).unwrap());
-    let sampling = Sampling { per_voxel: 2, ..Sampling::default() };
+    let sampling = Sampling { per_voxel: 4.0, ..Sampling::default() };
     let shear = Shear::new(&grid, &camera, 1.0, &sampling).unwrap();
     let planned = bytes(&grid, &camera, 1.0, &sampling).unwrap();
     let colors = (shear.rays().iter().product::<usize>() * 16) as u64;

@@ -39,21 +39,27 @@ impl Default for Tile {
     }
 }
 
-/// Where a slice of a brick's rays are in a tile: some may be beside it.
-#[derive(Debug, Clone, Copy)]
+/// Where the rays of a slice of a brick are in a tile, which some may be beside.
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Window {
-    column: i64,
-    row: i64,
+    /// Of the first, counted from [`BEFORE`] the tile.
+    column: u8,
+    row: u8,
+    /// Which rows of cells have rays: all, or every second from the first or the second on.
+    rows: u8,
 }
 
 impl Window {
-    /// The first of them at that column and row; `None` where none is in a tile.
+    /// The cells from `[u, v]` on, counted from the tile's first ray, whose rows are so many cells `apart`; `None` where none of
+    /// their rays is in a tile.
     #[inline(always)]
-    pub fn new([column, row]: [i64; 2]) -> Option<Self> {
+    pub fn new([u, v]: [i64; 2], apart: usize) -> Option<Self> {
+        let odd = if apart == 2 { v & 1 } else { 0 };
+        let row = if apart == 2 { (v + odd) >> 1 } else { v };
         let side = SIDE as i64;
-        let inside =
-            (1 - side..WIDE as i64).contains(&column) && (1 - side..HIGH as i64).contains(&row);
-        inside.then_some(Self { column, row })
+        let inside = (1 - side..WIDE as i64).contains(&u) && (1 - side..HIGH as i64).contains(&row);
+        let [column, row] = [u, row].map(|n| (n + BEFORE as i64) as u8);
+        inside.then_some(Self { column, row, rows: (apart as i64 - 1 + odd) as u8 })
     }
 }
 
@@ -95,36 +101,28 @@ impl Tile {
         (u64::MAX >> (64 - (to - from))) << (from + BEFORE)
     }
 
-    /// Which rays of a slice have not stopped: bit `8 v + u`.
+    /// In which cells of a slice a ray has not stopped: bit `8 v + u`.
     #[inline(always)]
     pub fn left<S: Simd>(&self, simd: S, at: Window) -> u64 {
-        const FIRST: [u8; 64] = {
-            let (mut bytes, mut n) = ([0; 64], 0);
-            while n < SIDE {
-                bytes[n] = (8 * n) as u8;
-                n += 1;
-            }
-            bytes
-        };
-        let first = (at.row + BEFORE as i64) as usize;
+        let first = usize::from(at.row);
         let Some(rows) = self.open.get(first..).and_then(<[u64]>::first_chunk::<SIDE>) else {
             return 0;
         };
-        let rows = u64x8::from_slice(simd, rows) >> ((at.column + BEFORE as i64) as u32);
-        let bytes: u8x64<S> = rows.bitcast();
-        let bytes: u64x8<S> = bytes.swizzle_dyn(u8x64::from_slice(simd, &FIRST)).bitcast();
-        bytes.as_slice()[0]
+        let (bytes, cells) = &ROWS[usize::from(at.rows) % ROWS.len()];
+        let rows = u64x8::from_slice(simd, rows) >> u32::from(at.column);
+        let rows: u8x64<S> = rows.bitcast();
+        let rows: u64x8<S> = rows.swizzle_dyn(u8x64::from_slice(simd, bytes)).bitcast();
+        rows.as_slice()[0] & cells
     }
 
-    /// Which of eight rays of a row of a slice have not stopped, and what they gathered; `None` where the row is beside the tile.
+    /// The rays of a slice in the cell `[u, v]` and three on; `None` where they are beside the tile.
     #[inline(always)]
-    pub fn row(&mut self, at: Window, row: usize) -> Option<Row<'_>> {
-        let right = (at.column + BEFORE as i64) as usize;
-        let row = at.row + row as i64;
-        let gathered = self.gathered.get_mut(row as usize)?.get_mut(right..)?;
+    pub fn four(&mut self, at: Window, [u, v]: [usize; 2]) -> Option<Four<'_>> {
+        let column = usize::from(at.column) + u;
+        let row = usize::from(at.row) + (v >> u32::from(at.rows > 0));
+        let gathered = self.gathered.get_mut(row.wrapping_sub(BEFORE))?.get_mut(column..)?;
         let gathered = gathered.as_flattened_mut().first_chunk_mut()?;
-        let open = self.open.get_mut((row + BEFORE as i64) as usize)?;
-        Some(Row { gathered, open, right })
+        Some(Four { gathered, open: self.open.get_mut(row)?, column: column as u32 })
     }
 
     /// C of the first rays of a row, linear associated RGBA; `None` of those that met nothing.
@@ -143,36 +141,49 @@ impl Tile {
     }
 }
 
-/// Eight rays of a row.
-pub(super) struct Row<'t> {
-    gathered: &'t mut [f32; 4 * SIDE],
-    open: &'t mut u64,
-    right: usize,
+/// By the rows of cells that have rays: which byte of eight words is in which row, and the cells of those rows.
+static ROWS: [([u8; 64], u64); 3] = [
+    (rows(0, 1), u64::MAX),
+    (rows(0, 2), 0x00ff_00ff_00ff_00ff),
+    (rows(1, 2), 0xff00_ff00_ff00_ff00),
+];
+
+const fn rows(first: usize, apart: usize) -> [u8; 64] {
+    let (mut bytes, mut word) = ([0; 64], 0);
+    while first + apart * word < SIDE {
+        bytes[first + apart * word] = (8 * word) as u8;
+        word += 1;
+    }
+    bytes
 }
 
-impl Row<'_> {
+/// Four rays of a row.
+pub(super) struct Four<'t> {
+    gathered: &'t mut [f32; 16],
+    open: &'t mut u64,
+    column: u32,
+}
+
+impl Four<'_> {
     /// Bits of those that have not stopped.
     #[inline(always)]
     pub fn left(&self) -> u64 {
-        *self.open >> self.right & 0xff
+        *self.open >> self.column & 0xf
     }
 
-    /// Puts slabs behind what four of them gathered, the first or the last: associated colour and, below 0, opacity. A ray stops
-    /// when no more than `stop` comes through.
+    /// Puts slabs behind what they gathered: associated colour and, below 0, opacity. A ray stops when no more than `stop`
+    /// comes through.
     #[inline(always)]
-    pub fn under<S: Simd>(&mut self, simd: S, last: bool, slabs: f32x16<S>, stop: f32) {
-        let [first, half] = [if last { 16 } else { 0 }, if last { 4 } else { 0 }];
-        let gathered = &mut self.gathered[first..][..16];
-        let before = f32x16::from_slice(simd, gathered);
+    pub fn under<S: Simd>(&mut self, simd: S, slabs: f32x16<S>, stop: f32) {
+        let before = f32x16::from_slice(simd, self.gathered);
         let through = fourth(simd, before);
         let through = through.simd_gt(stop).select(through, f32x16::splat(simd, 0.0));
         let after = through * slabs + before;
-        after.store_slice(gathered);
+        after.store_slice(self.gathered);
+        // Without a branch: whether a ray stops is no guess, and is known late.
         let stopped = after.simd_le(stop).to_bitmask() >> 3 & 0x1111;
-        if stopped != 0 {
-            let stopped = (stopped | stopped >> 3 | stopped >> 6 | stopped >> 9) & 0xf;
-            *self.open &= !(stopped << half << self.right);
-        }
+        let stopped = (stopped | stopped >> 3 | stopped >> 6 | stopped >> 9) & 0xf;
+        *self.open &= !(stopped << self.column);
     }
 }
 
