@@ -175,10 +175,11 @@
 //! - **Rays may go through the voxels' own lattice** (`per_voxel`; Lacroute and Levoy 1994): of a volume alone in a parallel
 //!   view. Samples lie on planes across one axis, as far apart along a ray as others are, and are interpolated between eight
 //!   voxels as others are; what is new is which rays there are, and that the picture is interpolated between them, by cubics
-//!   through them: of the painted CThead at 380² they brought 1.2 dB of the 40.7 of a ray a voxel. That took a third of the
+//!   through them: of the painted CThead at 380² those brought 1.2 dB of the 40.7 of a ray a voxel. That took a third of the
 //!   time of a ray a pixel, at 4 dB less, and was 8 dB nearer than VolPack, which samples slices of voxels, at 1.9 times its
-//!   time (`cargo bench --bench peers`, one run of 36 views). Half of what is left waits for texels; to sample slices of voxels
-//!   too, four texels in place of eight, gained nothing.
+//!   time; a ray for two voxels, in 8 bits, was as near as VolPack at 1.2 times its time (`cargo bench --bench peers`, one run
+//!   of 36 views). Half of what rays take is waiting for texels: to sample slices of voxels too, four texels in place of
+//!   eight, gained nothing.
 //! - **Gel is kept in 16 bits** where its opacity and light allow (`texel = "auto"`): half the memory that a ray waits for.
 //!   Light above 1 is kept in parts of its brightest, which lights and material bound before any voxel is lit.
 //! - **The reference for texture filters is the exact mean** of square texels over a ray's parallelogram, weighed by area;

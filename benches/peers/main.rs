@@ -21,7 +21,7 @@ mod voxels;
 use std::path::Path;
 
 use errors::{Grey, Registered};
-use gelray::components::Sampling;
+use gelray::components::{Sampling, TexelKind};
 use gelray::volume::grid::{Grid, Scalars};
 use ours::Ours;
 use program::{Program, Told};
@@ -225,6 +225,10 @@ fn main() {
         ours("gelray, two rays a voxel", &painted, folder, per_voxel(2.0)),
         ours("gelray, a ray a voxel", &painted, folder, per_voxel(1.0)),
         ours("gelray, a ray for two voxels", &painted, folder, per_voxel(0.5)),
+        ours("gelray, the same in 8 bits", &painted, folder, |sampling| {
+            (sampling.texel, sampling.stop_at) = (TexelKind::U8, 0.05);
+            per_voxel(0.5)(sampling);
+        }),
     ];
     rows.extend(peer("VolPack", told("pairs.raw").volpack()));
     rows.extend(peer("VTK", told("pairs.raw").vtk("painted", 1.0)));

@@ -142,12 +142,7 @@ impl<T: Texel> Sought<'_, T> {
     }
 
     /// The rays from row `top` of a phase on, tile by tile, written to their rows of colors and of columns that met anything.
-    fn band(
-        &self,
-        top: usize,
-        (rows, met): Rows<'_>,
-        occupied: &Occupied,
-    ) -> Counts {
+    fn band(&self, top: usize, (rows, met): Rows<'_>, occupied: &Occupied) -> Counts {
         let shear = self.shear;
         let [across, parts] = [shear.rays()[0], shear.parts[0]];
         let high = met.len() / shear.parts[1];

@@ -9,6 +9,8 @@ use serde::Deserialize;
 pub(super) struct Document {
     pub asset: Asset,
     #[serde(default)]
+    pub extensions_used: Vec<String>,
+    #[serde(default)]
     pub extensions_required: Vec<String>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,

@@ -23,6 +23,9 @@ const MOST_NODES: usize = 100_000;
 /// Vertices and triangles that a byte of a file and its buffers may stand for, by placing a mesh many times; a million always may.
 const MOST_OF_A_BYTE: usize = 16;
 
+/// The extension by which materials move and scale textures.
+const MOVED_TEXTURES: &str = "KHR_texture_transform";
+
 /// Reads the triangles that the file's scene places, in the colors of vertices or of materials.
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     let (text, own) = buffers::chunks(bytes)?;
@@ -63,6 +66,11 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
             .warnings
             .push("its textures are not read, and the factors of its materials color it; name a picture of it as a `texture` and state `textured`".to_owned());
     }
+    if document.extensions_used.iter().any(|name| name == MOVED_TEXTURES) {
+        triangles
+            .warnings
+            .push(format!("it moves or scales its textures ({MOVED_TEXTURES}), which is not read; a `texture` laid on it lies where its vertices alone say"));
+    }
     Ok(triangles)
 }
 
@@ -73,9 +81,8 @@ fn refuse(document: &Document) -> Result<(), String> {
         return Err(format!("is glTF {version}, and 2.0 is read; export it again"));
     }
     // These change how a surface looks, and not where it is.
-    let harmless =
-        |name: &&String| !name.starts_with("KHR_materials") && *name != "KHR_texture_transform";
-    match document.extensions_required.iter().find(harmless) {
+    let needed = |name: &&String| !name.starts_with("KHR_materials") && *name != MOVED_TEXTURES;
+    match document.extensions_required.iter().find(needed) {
         Some(name) => Err(format!(
             "needs the extension {name}, which is not read; export it without (such as without compression)"
         )),

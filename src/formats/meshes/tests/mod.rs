@@ -34,6 +34,15 @@ fn a_square_is_two_triangles_and_that_is_said() {
 }
 
 #[test]
+fn what_a_gltf_states_of_textures_and_is_not_read_is_said() {
+    let more = r#""extensionsUsed":["KHR_texture_transform"],"images":[{"uri":"a.png"}],"scenes":[{"nodes":[0]}]"#;
+    let mesh = read("a.glb", &glb(r#""nodes":[{"mesh":0}]"#, more)).unwrap();
+    assert_eq!(mesh.warnings.len(), 2);
+    assert!(mesh.warnings[0].contains("textures are not read"), "{:?}", mesh.warnings);
+    assert!(mesh.warnings[1].contains("KHR_texture_transform"), "{:?}", mesh.warnings);
+}
+
+#[test]
 fn what_is_wrong_is_said() {
     for (name, bytes, said) in [
         ("a.obj", &b"v 0 0 0\nf 1 2 3\n"[..], "line 2"),
