@@ -6,8 +6,8 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::error::Fault;
-use super::nearest::{list, suggestion};
-use super::table::{COMPONENTS, Row};
+use super::nearest::list;
+use super::table::{COMPONENTS, Row, no_component};
 
 /// The names of entities: as stated, or else what they are, numbered where that name is taken.
 pub(super) fn names(tables: &[&Spanned<DeValue>]) -> Vec<String> {
@@ -108,5 +108,5 @@ fn unknown<'k, 't>(
     let known: Vec<_> = std::iter::once("name").chain(COMPONENTS.iter().map(|r| r.key)).collect();
     let key = keys.iter().find(|key| !known.contains(&&**key.get_ref()))?;
     let word = key.get_ref();
-    Some((key, format!(": there is no component `{word}`; {}", suggestion(word, &known))))
+    Some((key, format!(": {}", no_component(word, &known))))
 }

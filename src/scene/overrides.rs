@@ -7,7 +7,7 @@ use super::error::Text;
 use super::grammar::{child, items, keys, unknown_key};
 use super::nearest::{list, suggestion};
 use super::parse::{entity_names, root};
-use super::table::{COMPONENTS, Row};
+use super::table::{COMPONENTS, Row, no_component};
 use crate::error::SceneError;
 
 /// The text after every override, in the order given. `file` is how sentences name the text.
@@ -37,9 +37,8 @@ fn one(document: &mut DocumentMut, names: &[String], change: &str) -> Result<(),
     let component = steps.next().unwrap_or_default();
     let known: Vec<_> = COMPONENTS.iter().map(|row| row.key).collect();
     let Some(row) = Row::of(component) else {
-        return Err(without_entity(document, names, name, path.trim()).unwrap_or_else(|| {
-            format!("there is no component `{component}`; {}", suggestion(component, &known))
-        }));
+        return Err(without_entity(document, names, name, path.trim())
+            .unwrap_or_else(|| no_component(component, &known)));
     };
     let entity = entity(document, names, name, row)?;
     let steps: Vec<_> = steps.collect();

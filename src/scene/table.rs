@@ -16,6 +16,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use super::check::{Check, Wrong};
 use super::error::Fault;
 use super::grammar;
+use super::nearest::{list, suggestion};
 #[allow(clippy::wildcard_imports, reason = "a component more is no import more")]
 use crate::components::*;
 
@@ -74,6 +75,19 @@ impl Row {
     pub fn read(&self, value: &Spanned<DeValue>, entity: &mut EntityBuilder) -> Result<(), Fault> {
         (self.read)(self, value, entity)
     }
+}
+
+/// The sentence about a word that is no component, of those that are `known`: whose key it is, or what may have been meant.
+pub(super) fn no_component(word: &str, known: &[&str]) -> String {
+    let has = |row: &&Row| row.schema()["properties"].get(word).is_some();
+    let owners: Vec<_> = COMPONENTS.iter().filter(has).map(|row| row.key).collect();
+    let remedy = match owners[..] {
+        [] => suggestion(word, known),
+        [owner, ..] => {
+            format!("it is a key of {}; write `{owner} = {{ {word} = … }}`", list(&owners))
+        }
+    };
+    format!("there is no component `{word}`; {remedy}")
 }
 
 /// A component whose keys may be stated as the schema says.

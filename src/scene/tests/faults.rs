@@ -27,6 +27,11 @@ fn a_misspelt_word_is_pointed_at_and_the_nearest_known_one_suggested() {
         ),
         "{component}"
     );
+    let owned = line(VIEW, "stop_at = 0.1");
+    assert!(
+        owned.contains("it is a key of `sampling`; write `sampling = { stop_at = … }`"),
+        "{owned}"
+    );
     let key = line(VOLUME, "material = { ambient = 0.1, colr = \"#ffffff\" }");
     assert!(
         key.starts_with("s.toml:3:29: ")
