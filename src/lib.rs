@@ -177,7 +177,7 @@
 //!   voxels as others are; what is new is which rays there are, and that the picture is interpolated between them, by cubics
 //!   through them: of the painted CThead at 380² those brought 1.2 dB of the 40.7 of a ray a voxel. That took a third of the
 //!   time of a ray a pixel, at 4 dB less, and was 8 dB nearer than VolPack, which samples slices of voxels, at 1.9 times its
-//!   time; a ray for two voxels, in 8 bits, was as near as VolPack at 1.2 times its time (`cargo bench --bench peers`, one run
+//!   time; a ray for two voxels, in 8 bits, was as near as VolPack at 1.3 times its time (`cargo bench --bench peers`, one run
 //!   of 36 views). Half of what rays take is waiting for texels: to sample slices of voxels too, four texels in place of
 //!   eight, gained nothing.
 //! - **Gel is kept in 16 bits** where its opacity and light allow (`texel = "auto"`): half the memory that a ray waits for.
