@@ -117,7 +117,8 @@ fn at_middles<S: Simd>(
     start: DVec2,
     row: &mut [[f32; 4]],
 ) {
-    /// Of the four rays around a place, by the powers of how far it is behind the second; along each axis.
+    /// Of the four rays around a place, by the powers of how far it is behind the second; along each axis. They are the weights
+    /// of `volume::filter::Taps`, which, made one number after the other, take as long as all else here.
     const POWERS: [[[f32; 4]; 2]; 4] = [
         [[0.0, 1.0, 0.0, 0.0]; 2],
         [[-0.5, 0.0, 0.5, 0.0]; 2],
@@ -221,9 +222,7 @@ fn summed(rays: &VoxelRays, taps: &[(DVec2, f32)], y: usize, row: &mut [[f32; 4]
         let middle = rays.places.at(DVec2::new(x as f64, y as f64) + 0.5);
         let (mut sum, mut excess) = (Vec4::ZERO, 0.0_f32);
         for &(offset, weight) in taps {
-            let first = (middle + offset).floor();
-            let part = (middle + offset - first).as_vec2();
-            let color = between(rays, [first.x as i64, first.y as i64], part.to_array());
+            let color = between(rays, middle + offset);
             excess = excess.max(color.max_element() - color.w);
             sum += color * weight;
         }
@@ -231,18 +230,22 @@ fn summed(rays: &VoxelRays, taps: &[(DVec2, f32)], y: usize, row: &mut [[f32; 4]
     }
 }
 
-/// What lies so far behind a ray, between it and the three after it; nothing outside the lattice.
-fn between(rays: &VoxelRays, first: [i64; 2], [x, y]: [f32; 2]) -> Vec4 {
-    let Some(rows) = pairs(rays, first) else { return Vec4::ZERO };
+/// What lies at a place, between the four rays around it; nothing outside the lattice.
+fn between(rays: &VoxelRays, place: DVec2) -> Vec4 {
+    let first = place.floor();
+    let part = (place - first).as_vec2();
+    let Some(rows) = pairs(rays, [first.x as i64, first.y as i64]) else { return Vec4::ZERO };
     let [above, below] =
-        rows.map(|[left, right]| Vec4::from_array(*left).lerp(Vec4::from_array(*right), x));
-    above.lerp(below, y)
+        rows.map(|[left, right]| Vec4::from_array(*left).lerp(Vec4::from_array(*right), part.x));
+    above.lerp(below, part.y)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::components::Filter;
     use crate::view::voxel_rays::LatticePlaces;
+    use crate::volume::filter::Taps;
 
     /// A lattice of 40 × 30 rays whose colors rise evenly, with pixels so many rays apart.
     fn slope(apart: f64) -> VoxelRays {
@@ -289,7 +292,7 @@ mod tests {
         let made = pixels(&rays, [40, 8], PixelFilter::Box);
         // The middle of pixel 4 is 5.125 rays from the first.
         let t: f32 = 0.125;
-        let weight = |t: f32| (1.5 * t - 2.5) * t * t + 1.0;
+        let weight = |t: f32| Taps::new(Filter::CatmullRom, t).weights[1];
         let pixel = made[3 * 40 + 4];
         assert!((pixel[3] - weight(t)).abs() < 1e-6, "{pixel:?}");
         for pixel in &made {

@@ -26,7 +26,7 @@ use crate::schedule::Watch;
 use crate::view::camera::Camera;
 use crate::view::samples::{Counts, Layout, SampleArray};
 use crate::view::voxel_rays::VoxelRays;
-use crate::volume::gel::{EMPTY, GelBricks, Texel, Texels};
+use crate::volume::gel::{GelBricks, Texel, Texels};
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::Pyramid;
 use beam::Beam;
@@ -128,7 +128,7 @@ impl<T: Texel> Sought<'_, T> {
         Ok((VoxelRays { size, colors, met, places: shear.places }, counts))
     }
 
-    /// The bricks that are stored, and of interest.
+    /// The bricks that have cells to be sampled.
     fn occupied(&self) -> Occupied {
         let (texels, pyramid) = (self.texels.slices(), self.pyramid.map(Pyramid::slices));
         let [u, v, w] = self.shear.axes;
@@ -136,8 +136,7 @@ impl<T: Texel> Sought<'_, T> {
         Occupied::of([u, v, w].map(|axis| counts[axis]), |at| {
             let mut brick = [0; 3];
             (brick[u], brick[v], brick[w]) = (at[0], at[1], at[2]);
-            let stored = texels.stored_at(brick);
-            pyramid.map_or(stored != EMPTY, |pyramid| pyramid.words(stored).is_some())
+            cells::sampled(pyramid, texels.stored_at(brick)).is_some()
         })
     }
 

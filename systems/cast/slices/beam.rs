@@ -4,12 +4,12 @@
 use fearless_simd::Simd;
 
 use super::brick::Brick;
-use super::cells::{turned, within};
+use super::cells::{sampled, turned, within};
 use super::occupied::Occupied;
 use super::shear::{Shear, Slice};
 use super::tile::Tile;
 use crate::view::samples::Counts;
-use crate::volume::gel::{CELLS, EMPTY, Texel, TexelSlices};
+use crate::volume::gel::{CELLS, Texel, TexelSlices};
 use crate::volume::pyramid::PyramidSlices;
 
 /// What the rays of a tile go through.
@@ -128,11 +128,7 @@ impl<T: Texel> Beam<'_, T> {
         let mut at = [0; 3];
         (at[axes[0]], at[axes[1]], at[axes[2]]) = (u as usize, v as usize, layer.number as usize);
         let stored = self.texels.stored_at(at);
-        let words = match self.pyramid {
-            Some(pyramid) => pyramid.words(stored),
-            None => (stored != EMPTY).then_some(&[u64::MAX; CELLS]),
-        };
-        let Some(words) = words else { return };
+        let Some(words) = sampled(self.pyramid, stored) else { return };
         let inside =
             [(0, u), (1, v)].map(|(axis, at)| (size[axis] - 1).saturating_sub(CELLS * at as usize));
         let inside = within(inside);

@@ -1,7 +1,18 @@
 //! Bits of a brick's cells, slice by slice.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
-use crate::volume::gel::CELLS;
+use crate::volume::gel::{CELLS, EMPTY};
+use crate::volume::pyramid::PyramidSlices;
+
+/// The cells of a stored brick that are sampled: those of interest, or all where no pyramid tells them; `None` for a brick
+/// that is not stored.
+#[inline(always)]
+pub(super) fn sampled(pyramid: Option<PyramidSlices<'_>>, stored: u32) -> Option<&[u64; CELLS]> {
+    match pyramid {
+        Some(pyramid) => pyramid.words(stored),
+        None => (stored != EMPTY).then_some(&[u64::MAX; CELLS]),
+    }
+}
 
 /// The bits of a brick's cells, by what is to be w: bit `8 v + u` of word w, of bit `8 y + x` of word z.
 #[inline(always)]
