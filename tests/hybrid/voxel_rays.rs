@@ -52,7 +52,9 @@ fn a_head_is_near_its_exact_picture_from_all_sides_and_nearer_with_more_rays() {
         println!("{azimuth} {elevation}: {errors:.1?} dB");
         let least = [28.0, 34.0, 35.0, 37.0];
         let is_near = errors.iter().zip(least).all(|(error, least)| *error > least);
-        assert!(is_near && errors.is_sorted(), "{azimuth} {elevation}: {errors:?}");
+        // Beyond 50 dB what is left is not the distance between rays, but when they stop.
+        let nearer = errors.windows(2).all(|pair| pair[0] < pair[1] || pair[0] > 50.0);
+        assert!(is_near && nearer, "{azimuth} {elevation}: {errors:?}");
     }
 }
 
