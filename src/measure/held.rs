@@ -5,7 +5,7 @@ use hecs::{Component, World};
 use crate::light::strength::LightStrength;
 use crate::measure::judged::Judged;
 use crate::polygon::face::Faces;
-use crate::polygon::texture::TexturedBy;
+use crate::polygon::texture::{MappedTexture, TexturedBy};
 use crate::view::overlay::Overlay;
 use crate::view::picture::{Frame, Picture};
 use crate::view::samples::{SampleArray, Samples};
@@ -80,7 +80,8 @@ fn loaded(world: &World) -> Held {
     let voxels = sum(world, |grid: &Grid| grid.size.iter().map(|n| *n as u64).product());
     let polygons = sum(world, |faces: &Faces| faces.0.len() as u64);
     let bytes = sum(world, Scalars::bytes) + sum(world, Painted::bytes) + sum(world, Faces::bytes);
-    let bytes = bytes + sum(world, |by: &TexturedBy| by.texture.bytes());
+    let bytes =
+        bytes + sum(world, |by: &TexturedBy| by.laid.all().iter().map(MappedTexture::bytes).sum());
     Held { bytes, counts: vec![("voxels", voxels), ("polygons", polygons)] }
 }
 

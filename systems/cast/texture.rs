@@ -26,13 +26,14 @@ impl FaceTexture {
     /// The texture as it lies on `face` of that number; `None` where it shows none of it on the face, such as
     /// upright on it.
     pub fn new(by: &TexturedBy, (at, face): (usize, &Face), camera: &Camera) -> Option<Self> {
+        let texture = by.laid.on(at)?.clone();
         let mapping = by.mapping(at, face)?;
         let sight = Ray { origin: camera.focal, along: camera.forward };
         let footprints = camera
             .eye
             .is_none()
             .then(|| SIDES.map(|pixels| mapping.footprint(camera, (&sight, 0.0), pixels)));
-        Some(Self { texture: by.texture.clone(), mapping, camera: *camera, footprints })
+        Some(Self { texture, mapping, camera: *camera, footprints })
     }
 
     /// Associated RGBA of the texture where a ray of the lattice of `step` positions meets the face, at `depth`.

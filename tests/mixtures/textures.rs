@@ -1,8 +1,7 @@
 //! Textures on polygons of the hybrid ray tracer, in pictures (paper §5, the paper's figure 10).
 
 use gelray::components::{Color, TextureFilter, Wrap};
-use gelray::polygon::texture::MappedTexture;
-use gelray::polygon::texture::TexturedBy;
+use gelray::polygon::texture::{Laid, MappedTexture, TexturedBy};
 use gelray::view::picture::Picture;
 use gelray::view::samples::{POSITIONS, SampleArray};
 use hecs::World;
@@ -17,8 +16,8 @@ const AMBIENT: &str = "surface = { ambient = 1, diffuse = 0 }";
 /// Lays a picture on a polygon that has a texture already.
 fn lay(world: &mut World, name: &str, picture: &Picture, wrap: Wrap, filter: TextureFilter) {
     let entity = entity(world, name);
-    world.get::<&mut TexturedBy>(entity).unwrap().texture =
-        MappedTexture::new(picture, wrap, filter);
+    world.get::<&mut TexturedBy>(entity).unwrap().laid =
+        Laid::One(MappedTexture::new(picture, wrap, filter));
 }
 
 fn picture(side: usize, texel: impl Fn(usize, usize) -> [f32; 4]) -> Picture {

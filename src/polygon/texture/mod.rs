@@ -21,10 +21,12 @@ mod ellipse;
 mod footprint;
 mod mapping;
 mod mip;
+mod own;
 
 pub use footprint::Footprint;
 pub use mapping::Mapping;
 use mip::MipLevel;
+pub use own::OwnTextures;
 
 /// A texture ready for lookups: linear, associated RGBA and its coarser levels, shared by pointer.
 #[derive(Debug, Clone)]
@@ -107,7 +109,7 @@ impl MappedTexture {
 pub fn bytes_of(world: &World) -> u64 {
     let mut each_once: HashMap<_, _> =
         world.query::<&MappedTexture>().iter().map(counted).collect();
-    each_once.extend(world.query::<&TexturedBy>().iter().map(|by| counted(&by.texture)));
+    each_once.extend(world.query::<&TexturedBy>().iter().flat_map(|by| by.laid.all()).map(counted));
     each_once.values().sum()
 }
 
@@ -121,10 +123,39 @@ fn counted(texture: &MappedTexture) -> (*const MipLevel, u64) {
 pub struct TexturedBy {
     /// As stated.
     pub textured: Textured,
-    /// The texture, ready for lookups.
-    pub texture: MappedTexture,
+    /// What is laid, ready for lookups.
+    pub laid: Laid,
     /// Where it lies.
     pub lies: Lies,
+}
+
+/// Which texture is on a face of an entity.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Laid {
+    /// The same on all of them.
+    One(MappedTexture),
+    /// On each that of its mesh's file, if it has one.
+    Each(OwnTextures),
+}
+
+impl Laid {
+    /// The texture on the face of that number, if there is one.
+    #[must_use]
+    pub fn on(&self, at: usize) -> Option<&MappedTexture> {
+        match self {
+            Self::One(texture) => Some(texture),
+            Self::Each(own) => own.on(at),
+        }
+    }
+
+    /// All that there are.
+    #[must_use]
+    pub fn all(&self) -> &[MappedTexture] {
+        match self {
+            Self::One(texture) => std::slice::from_ref(texture),
+            Self::Each(own) => own.all(),
+        }
+    }
 }
 
 /// Where a texture lies on the faces of an entity.
