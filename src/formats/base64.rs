@@ -29,6 +29,14 @@ pub(super) fn decoded(text: &[u8], count: usize) -> Option<Vec<u8>> {
     (bytes.len() == count).then_some(bytes)
 }
 
+/// All bytes of base64, as [`decoded`] has them.
+pub(super) fn all_decoded(text: &[u8]) -> Vec<u8> {
+    let blank = |letter: &&u8| !letter.is_ascii_whitespace();
+    let is_code = |letter: &&u8| letter.is_ascii_alphanumeric() || matches!(letter, b'+' | b'/');
+    let letters = text.iter().filter(blank).take_while(is_code).count();
+    decoded(text, letters / 4 * 3 + [0, 0, 1, 2][letters % 4]).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::made::base64;
@@ -41,6 +49,7 @@ mod tests {
             let text = base64(&bytes);
             assert_eq!(decoded(text.as_bytes(), bytes.len()), Some(bytes.clone()));
             assert_eq!(decoded(text.as_bytes(), bytes.len() + 1), None);
+            assert_eq!(all_decoded(text.as_bytes()), bytes);
         }
         assert_eq!(decoded(b"QQ==", usize::MAX), None);
     }

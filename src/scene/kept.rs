@@ -13,7 +13,7 @@ use crate::formats::Loaded;
 use crate::measure::sigma::{Sigma, sigma};
 use crate::polygon::face::{FaceColors, Faces};
 use crate::polygon::smooth::StatedNormals;
-use crate::polygon::texture::TexturePlaces;
+use crate::polygon::texture::{OwnTextures, TexturePlaces};
 use crate::view::picture::Picture;
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::labels::Tint;
@@ -52,12 +52,13 @@ pub(super) struct KeptPicture {
 #[derive(Clone)]
 pub(super) struct KeptMesh {
     pub stated: Mesh,
-    /// Whether its normals were asked for, and its places in a texture.
-    pub asked: [bool; 2],
+    /// Whether its normals were asked for, its places in a texture, and its own pictures.
+    pub asked: [bool; 3],
     pub faces: Faces,
     pub colors: Option<FaceColors>,
     pub normals: Option<StatedNormals>,
     pub places: Option<TexturePlaces>,
+    pub own: OwnTextures,
     pub files: Vec<PathBuf>,
 }
 

@@ -23,7 +23,7 @@ pub struct Scene {
     pub missing: Vec<String>,
     /// The TOML after overrides: what a picture notes so that it can be made again.
     pub resolved: String,
-    /// Every file that was read beside the scene's own: volumes, the data files that their headers name, and textures.
+    /// Every file that was read beside the scene's own: volumes, the data files that their headers name, textures, and what meshes name.
     pub files: Vec<PathBuf>,
     /// The scene's name: its file without folder and ending, or the embedded scene's name.
     pub name: String,

@@ -15,6 +15,7 @@ mod kept;
 mod labels;
 mod load;
 mod loading;
+mod mesh_pictures;
 mod meshes;
 mod molecules;
 mod named;

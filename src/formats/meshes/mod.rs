@@ -2,6 +2,7 @@
 
 mod gltf;
 mod obj;
+mod pictures;
 mod ply;
 mod stl;
 mod triangles;
@@ -15,6 +16,7 @@ use std::path::Path;
 
 use super::stream::Stream;
 use crate::error::Error;
+pub use pictures::{MeshPicture, PictureAlpha, PicturePlace};
 pub use triangles::{AtCorners, Triangles};
 
 /// A format of meshes: a row of `MESH_FORMATS`.

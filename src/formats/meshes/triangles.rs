@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 
 use super::super::stream::room;
+use super::pictures::MeshPicture;
 use crate::components::{Color, Space};
 
 /// What a file states at the corners of its triangles, such as normals; empty where it states none.
@@ -42,10 +43,16 @@ pub struct Triangles {
     pub colors: Vec<Color>,
     /// Three indices into `vertices` each, counter-clockwise seen from outside where the file keeps to that.
     pub faces: Vec<[u32; 3]>,
+    /// The color of each triangle, where vertices have none; empty where the file states none.
+    pub face_colors: Vec<Color>,
     /// Normals at their corners, of any length.
     pub normals: AtCorners<DVec3>,
     /// Where their corners lie in a texture: (0, 0) is its top left corner and (1, 1) its bottom right one.
     pub places: AtCorners<DVec2>,
+    /// The pictures that its materials lay on triangles, times their colors.
+    pub pictures: Vec<MeshPicture>,
+    /// The number of the picture on each triangle, beyond them for none; empty where there are none.
+    pub pictured: Vec<u32>,
     /// Which way its axes run, where its format says so.
     pub space: Option<Space>,
     /// World units (mm) in one of its units, where its format says so.
@@ -57,11 +64,21 @@ pub struct Triangles {
 }
 
 impl Triangles {
-    /// The color of a triangle: the mean of its corners', in linear light; `None` where vertices have none.
+    /// The color of triangle number `at`: the mean of its corners', in linear light, else its own; `None` where neither is stated.
     #[must_use]
-    pub(crate) fn color(&self, face: [u32; 3]) -> Option<Color> {
-        let [a, b, c] = face.map(|at| self.colors.get(at as usize).map(|color| color.0));
+    pub(crate) fn color(&self, at: usize) -> Option<Color> {
+        if self.colors.is_empty() {
+            return self.face_colors.get(at).copied();
+        }
+        let corners = self.faces.get(at)?;
+        let [a, b, c] = corners.map(|at| self.colors.get(at as usize).map(|color| color.0));
         Some(Color((a? + b? + c?) / 3.0))
+    }
+
+    /// The number of the picture on triangle number `at`, if there is one.
+    #[must_use]
+    pub(crate) fn picture(&self, at: usize) -> Option<u32> {
+        self.pictured.get(at).copied().filter(|&number| (number as usize) < self.pictures.len())
     }
 }
 

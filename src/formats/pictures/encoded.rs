@@ -80,6 +80,8 @@ pub(super) enum Alpha {
     Straight,
     /// Colours multiplied by alpha, as they stand in the file.
     Associated,
+    /// Something else than an opacity: every pixel is opaque, in the colour that stands in the file.
+    Ignored,
 }
 
 /// Linear, associated pixels of sRGB codes in 0..=`white`, 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) a pixel.
@@ -96,12 +98,13 @@ pub(super) fn from_codes<T: Copy + Into<u32>>(
         let [r, g, b, alpha] = rgba(sample, white).map(Into::into);
         let color = |code: u32| match kind {
             Alpha::Straight => linear[code as usize] * part(alpha),
+            Alpha::Ignored => linear[code as usize],
             // Such files are multiplied in sRGB, so dividing comes before the curve.
             Alpha::Associated => {
                 to_linear((code as f32 / alpha.max(1) as f32).min(1.0)) * part(alpha)
             }
         };
-        [color(r), color(g), color(b), part(alpha)]
+        [color(r), color(g), color(b), if kind == Alpha::Ignored { 1.0 } else { part(alpha) }]
     };
     codes.chunks_exact(channels).map(pixel).collect()
 }
@@ -113,6 +116,7 @@ pub(super) fn from_floats(values: &[f32], channels: usize, kind: Alpha) -> Vec<[
         match kind {
             Alpha::Straight => [r * alpha, g * alpha, b * alpha, alpha],
             Alpha::Associated => [r, g, b, alpha],
+            Alpha::Ignored => [r, g, b, 1.0],
         }
     };
     values.chunks_exact(channels).map(pixel).collect()

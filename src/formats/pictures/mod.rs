@@ -9,6 +9,7 @@ pub mod encoded;
 pub mod exr;
 mod exr_blocks;
 mod format;
+mod held;
 pub mod jpeg;
 mod layers;
 pub mod npy;
@@ -31,6 +32,7 @@ use crate::view::picture::Picture;
 
 pub(crate) use format::{MOST_PIXELS, checked_size, whole, wrong};
 pub use format::{Notes, Opened, PictureFormat, Reader, Sizer, Writer};
+pub(crate) use held::{read_held, weighed_held};
 pub use layers::{PixelLayer, layers_beside};
 pub use ray_map::{ray_map_beside, write_ray_map};
 pub use weight::{Weight, weighed};

@@ -40,6 +40,15 @@ pub fn write(sink: &mut dyn Sink, picture: &Picture, notes: &Notes) -> Result<()
 
 /// Reads grey, palette, RGB and RGBA of 1 to 16 bits; of an animation, the first picture. `gAMA` and profiles are not obeyed.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
+    read_as(bytes, Alpha::Straight)
+}
+
+/// [`read`], but that alpha is no opacity: every pixel is opaque, in the color that it has where alpha would hide it.
+pub(super) fn read_opaque(bytes: &[u8]) -> Result<Picture, String> {
+    read_as(bytes, Alpha::Ignored)
+}
+
+fn read_as(bytes: &[u8], alpha: Alpha) -> Result<Picture, String> {
     let limits = Limits { bytes: MOST_PIXELS as usize * 8 };
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(Transformations::EXPAND);
@@ -56,9 +65,9 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let pixels = if frame.bit_depth == BitDepth::Sixteen {
         let codes: Vec<u16> =
             buffer.as_chunks().0.iter().map(|pair| u16::from_be_bytes(*pair)).collect();
-        from_codes(&codes, channels, u16::MAX, Alpha::Straight)
+        from_codes(&codes, channels, u16::MAX, alpha)
     } else {
-        from_codes(&buffer, channels, u8::MAX, Alpha::Straight)
+        from_codes(&buffer, channels, u8::MAX, alpha)
     };
     whole(size, pixels)
 }

@@ -8,7 +8,7 @@ use super::{checked_length, format_of, unknown, unreadable};
 use crate::error::Error;
 
 /// Bytes of a pixel in memory: four floats.
-const PIXEL: u64 = 16;
+pub(super) const PIXEL: u64 = 16;
 
 /// Bytes that a picture takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! Facts about whole scenes: what they become, and what is said of those that cannot be used.
 
 mod faults;
+mod pictured;
 
 use hecs::World;
 

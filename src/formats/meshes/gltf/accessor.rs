@@ -2,7 +2,7 @@
 
 use super::super::triangles::reserve;
 use super::buffers::Buffers;
-use super::document::{Accessor, Document};
+use super::document::{Accessor, BufferView, Document};
 
 /// The numbers of an accessor, one element after the other.
 pub(super) struct Numbers {
@@ -54,10 +54,8 @@ fn each(
         other => return Err(format!("has vertices of {other}; export it again")),
     };
     let size = size(accessor.component_type)?;
-    let view = accessor.buffer_view.ok_or("has an accessor without bytes; export it again")?;
-    let view = document.buffer_views.get(view).ok_or_else(|| missing("buffer view", view))?;
-    let buffer = buffers.bytes.get(view.buffer).ok_or_else(|| missing("buffer", view.buffer))?;
-    let own = part(buffer, view.byte_offset, view.byte_length)?;
+    let at = accessor.buffer_view.ok_or("has an accessor without bytes; export it again")?;
+    let (view, own) = viewed(document, buffers, at)?;
     let own = part(
         own,
         accessor.byte_offset,
@@ -79,6 +77,17 @@ fn each(
         values.extend(element.chunks_exact(size).map(|number| value(number, accessor)));
     }
     Ok(width)
+}
+
+/// A view of a buffer, and its bytes.
+pub(super) fn viewed<'b>(
+    document: &'b Document,
+    buffers: &'b Buffers,
+    at: usize,
+) -> Result<(&'b BufferView, &'b [u8]), String> {
+    let view = document.buffer_views.get(at).ok_or_else(|| missing("buffer view", at))?;
+    let buffer = buffers.bytes.get(view.buffer).ok_or_else(|| missing("buffer", view.buffer))?;
+    Ok((view, part(buffer, view.byte_offset, view.byte_length)?))
 }
 
 fn part(bytes: &[u8], from: u64, length: u64) -> Result<&[u8], String> {

@@ -6,6 +6,7 @@ use super::super::triangles::reserve;
 use super::accessor::{Numbers, floats};
 use super::buffers::Buffers;
 use super::document::{Document, Primitive};
+use super::looks::{Moved, PictureUse};
 use crate::components::Color;
 
 /// The vertices of a primitive, placed by a matrix, of which `first` in the file were there before.
@@ -31,9 +32,8 @@ impl Vertices<'_> {
 
     /// Adds their colors, linear: their own times their material's factor; white where neither is stated, which is told.
     pub fn color(&self, colors: &mut Vec<Color>) -> Result<bool, String> {
-        let materials = self.document.materials.as_ref();
-        let material = self.primitive.material.and_then(|at| materials?.get(at));
-        let factor = material.and_then(|material| material.pbr.as_ref()?.base_color);
+        let looks = self.document.looks(self.primitive);
+        let factor = looks.and_then(|looks| looks.pbr.as_ref()?.base_color);
         let tint = factor.unwrap_or([1.0; 4]);
         let of = |channels: &[f64]| {
             let channel = |at: usize| (channels[at] as f32 * tint[at]).clamp(0.0, 1.0);
@@ -60,14 +60,45 @@ impl Vertices<'_> {
         Ok(())
     }
 
-    /// Adds where they lie in a texture, as [`bend`](Self::bend) adds normals.
+    /// Adds where they lie in a texture, moved as their material says, as [`bend`](Self::bend) adds normals.
     pub fn lay(&self, places: &mut Vec<DVec2>) -> Result<(), String> {
-        let Some(own) = self.numbers("TEXCOORD_0", &[2], "places in a texture")? else {
+        let looks = self.document.looks(self.primitive);
+        let picture = looks.and_then(|looks| looks.pbr.as_ref()?.picture.as_ref());
+        let set = format!("TEXCOORD_{}", picture.map_or(0, PictureUse::set));
+        let Some(own) = self.numbers(&set, &[2], "places in a texture")? else {
             return Ok(());
         };
+        let moved = picture.and_then(PictureUse::moved).unwrap_or_default();
         reserve(places, self.first + self.count - places.len())?;
         places.resize(self.first, DVec2::NAN);
-        places.extend(own.values.chunks_exact(2).map(|uv| DVec2::new(uv[0], uv[1])));
+        places.extend(own.values.chunks_exact(2).map(|uv| place(uv, moved)));
         Ok(())
+    }
+}
+
+/// A place in a picture: scaled, turned and moved as `KHR_texture_transform` has it, counter-clockwise where v runs down.
+fn place(uv: &[f64], Moved { offset, rotation, scale, .. }: Moved) -> DVec2 {
+    let scaled = DVec2::new(uv[0], uv[1]) * DVec2::from(scale.unwrap_or([1.0; 2]));
+    let (sin, cos) = rotation.unwrap_or(0.0).sin_cos();
+    let turned = DVec2::new(cos * scaled.x + sin * scaled.y, cos * scaled.y - sin * scaled.x);
+    turned + DVec2::from(offset.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quadrant_is_turned_as_the_extension_shows_it() {
+        // Its own example: "the lower left quadrant of the source image, rotated clockwise 90°".
+        let half = Some([0.5; 2]);
+        let rotation = Some(std::f64::consts::FRAC_PI_2);
+        let moved = Moved { offset: Some([0.0, 1.0]), rotation, scale: half, ..Moved::default() };
+        for (uv, there) in
+            [([0.0, 0.0], [0.0, 1.0]), ([1.0, 0.0], [0.0, 0.5]), ([0.0, 1.0], [0.5, 1.0])]
+        {
+            assert!(place(&uv, moved).abs_diff_eq(DVec2::from(there), 1e-12), "{uv:?}");
+        }
+        assert_eq!(place(&[0.25, 0.75], Moved::default()), DVec2::new(0.25, 0.75));
     }
 }

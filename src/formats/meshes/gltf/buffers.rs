@@ -71,17 +71,20 @@ impl<'b> Buffers<'b> {
 
     /// The bytes of a file that is named from the folder of `path`.
     fn beside(&mut self, uri: &str, path: &Path) -> Result<Vec<u8>, String> {
-        if uri.contains("://") {
-            return Err(format!(
-                "has its buffer at {uri}; export it as .glb, for nothing is fetched"
-            ));
-        }
-        let file = path.parent().unwrap_or(Path::new("")).join(unescaped(uri));
+        let file = file_of(uri, path).ok_or_else(|| {
+            format!("has its buffer at {uri}; export it as .glb, for nothing is fetched")
+        })?;
         let read = Stream::open(&file).and_then(|mut stream| stream.rest());
         let bytes = read.map_err(|problem| format!("its buffer {}: {problem}", file.display()))?;
         self.files.push(file);
         Ok(bytes)
     }
+}
+
+/// The file that a name in the file `path` means; `None` for a place that things would have to be fetched from.
+pub(super) fn file_of(uri: &str, path: &Path) -> Option<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    (!uri.contains("://")).then(|| folder.join(unescaped(uri)))
 }
 
 /// A name with `%20` and the like as they are meant.

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use serde::Deserialize;
 
+use super::looks::{Outside, SampledImage, StoredImage, SurfaceLooks};
+
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
     pub asset: Asset,
-    #[serde(default)]
-    pub extensions_used: Vec<String>,
     #[serde(default)]
     pub extensions_required: Vec<String>,
     #[serde(default)]
@@ -25,8 +25,14 @@ pub(super) struct Document {
     #[serde(default)]
     pub scenes: Vec<Scene>,
     pub scene: Option<usize>,
-    pub materials: Option<Vec<Material>>,
-    pub images: Option<Vec<serde::de::IgnoredAny>>,
+    #[serde(default)]
+    pub materials: Vec<SurfaceLooks>,
+    #[serde(default)]
+    pub textures: Vec<SampledImage>,
+    #[serde(default)]
+    pub images: Vec<StoredImage>,
+    #[serde(default)]
+    pub samplers: Vec<Outside>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -87,6 +93,13 @@ fn triangles() -> u32 {
     4
 }
 
+impl Document {
+    /// How a primitive's material has it look, if it has one.
+    pub fn looks(&self, primitive: &Primitive) -> Option<&SurfaceLooks> {
+        self.materials.get(primitive.material?)
+    }
+}
+
 #[derive(Debug, Deserialize)]
 pub(super) struct Node {
     #[serde(default)]
@@ -103,17 +116,4 @@ pub(super) struct Node {
 pub(super) struct Scene {
     #[serde(default)]
     pub nodes: Vec<usize>,
-}
-
-#[derive(Debug, Deserialize)]
-pub(super) struct Material {
-    #[serde(rename = "pbrMetallicRoughness")]
-    pub pbr: Option<Pbr>,
-}
-
-#[derive(Debug, Deserialize)]
-pub(super) struct Pbr {
-    /// Linear RGBA.
-    #[serde(rename = "baseColorFactor")]
-    pub base_color: Option<[f32; 4]>,
 }

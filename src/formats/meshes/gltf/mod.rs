@@ -1,9 +1,11 @@
-//! glTF 2.0 (`.gltf` with its buffers beside it or in it, `.glb`): the triangles of a scene's nodes, in meters and with y up.
+//! glTF 2.0 (`.gltf` with its buffers beside it or in it, `.glb`): the triangles of a scene's nodes and their base colors, in meters and with y up.
 
 mod accessor;
 mod attributes;
+mod base_color;
 mod buffers;
 mod document;
+mod looks;
 mod place;
 
 use std::path::Path;
@@ -14,6 +16,7 @@ use super::triangles::{Triangles, add_fan, add_strip, reserve};
 use crate::components::Space;
 use accessor::{floats, indices};
 use attributes::Vertices;
+use base_color::BaseColors;
 use buffers::Buffers;
 use document::{Document, Primitive};
 
@@ -23,10 +26,10 @@ const MOST_NODES: usize = 100_000;
 /// Vertices and triangles that a byte of a file and its buffers may stand for, by placing a mesh many times; a million always may.
 const MOST_OF_A_BYTE: usize = 16;
 
-/// The extension by which materials move and scale textures.
-const MOVED_TEXTURES: &str = "KHR_texture_transform";
+/// Extensions of how pictures are stored and laid that are read.
+const PICTURES: [&str; 2] = ["KHR_texture_transform", "EXT_texture_webp"];
 
-/// Reads the triangles that the file's scene places, in the colors of vertices or of materials.
+/// Reads the triangles that the file's scene places, in the colors of vertices and of materials, and the pictures on them.
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     let (text, own) = buffers::chunks(bytes)?;
     let document: Document = serde_json::from_slice(text)
@@ -41,11 +44,16 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     };
     let held = bytes.len() + buffers.bytes.iter().map(|buffer| buffer.len()).sum::<usize>();
     let most = held.saturating_mul(MOST_OF_A_BYTE).max(1 << 20);
+    let mut base_colors = BaseColors::new(&document, &buffers, (path, held));
     let (mut left_out, mut colored) = (0, false);
     for (mesh, matrix) in place::placed(&document, MOST_NODES)? {
         for primitive in &mesh.primitives {
             match primitive.mode {
-                4..=6 => colored |= add(&mut triangles, &document, &buffers, (primitive, matrix))?,
+                4..=6 => {
+                    colored |= add(&mut triangles, &document, &buffers, (primitive, matrix))?;
+                    let number = base_colors.of(primitive).unwrap_or(u32::MAX);
+                    triangles.pictured.resize(triangles.faces.len(), number);
+                }
                 _ => left_out += 1,
             }
             if triangles.vertices.len() + triangles.faces.len() > most {
@@ -61,15 +69,11 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
             .warnings
             .push(format!("{left_out} of its parts are points or lines, and are left out"));
     }
-    if document.images.as_ref().is_some_and(|images| !images.is_empty()) {
-        triangles
-            .warnings
-            .push("its textures are not read, and the factors of its materials color it; name a picture of it as a `texture` and state `textured`".to_owned());
-    }
-    if document.extensions_used.iter().any(|name| name == MOVED_TEXTURES) {
-        triangles
-            .warnings
-            .push(format!("it moves or scales its textures ({MOVED_TEXTURES}), which is not read; a `texture` laid on it lies where its vertices alone say"));
+    base_colors.say_unread();
+    triangles.pictures = base_colors.pictures;
+    triangles.warnings.extend(base_colors.warnings);
+    if triangles.pictures.is_empty() {
+        triangles.pictured = Vec::new();
     }
     Ok(triangles)
 }
@@ -81,7 +85,8 @@ fn refuse(document: &Document) -> Result<(), String> {
         return Err(format!("is glTF {version}, and 2.0 is read; export it again"));
     }
     // These change how a surface looks, and not where it is.
-    let needed = |name: &&String| !name.starts_with("KHR_materials") && *name != MOVED_TEXTURES;
+    let needed =
+        |name: &&String| !name.starts_with("KHR_materials") && !PICTURES.contains(&name.as_str());
     match document.extensions_required.iter().find(needed) {
         Some(name) => Err(format!(
             "needs the extension {name}, which is not read; export it without (such as without compression)"

@@ -119,7 +119,7 @@ proptest! {
 fn colors_of_points_in_older_vtk_files_are_read() {
     let text = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nCOLOR_SCALARS c 3\n1 0 0 1 0 0 1 0 0\n";
     let mesh = read("a.vtk", text.as_bytes()).unwrap();
-    assert_eq!(mesh.color(mesh.faces[0]).unwrap().0, glam::Vec3::X);
+    assert_eq!(mesh.color(0).unwrap().0, glam::Vec3::X);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Facts about meshes: the same tetrahedron in every format, and files that are not what they say.
 
 mod corners;
+mod materials;
 mod sound;
 
 use glam::DVec3;
@@ -34,12 +35,11 @@ fn a_square_is_two_triangles_and_that_is_said() {
 }
 
 #[test]
-fn what_a_gltf_states_of_textures_and_is_not_read_is_said() {
-    let more = r#""extensionsUsed":["KHR_texture_transform"],"images":[{"uri":"a.png"}],"scenes":[{"nodes":[0]}]"#;
+fn pictures_of_a_gltf_that_are_of_no_base_color_are_said() {
+    let more = r#""images":[{"uri":"a.png"}],"scenes":[{"nodes":[0]}]"#;
     let mesh = read("a.glb", &glb(r#""nodes":[{"mesh":0}]"#, more)).unwrap();
-    assert_eq!(mesh.warnings.len(), 2);
-    assert!(mesh.warnings[0].contains("textures are not read"), "{:?}", mesh.warnings);
-    assert!(mesh.warnings[1].contains("KHR_texture_transform"), "{:?}", mesh.warnings);
+    assert!(mesh.warnings.len() == 1 && mesh.pictures.is_empty());
+    assert!(mesh.warnings[0].contains("1 of its pictures"), "{:?}", mesh.warnings);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn triangles_have_the_mean_of_the_colors_of_their_vertices() {
     let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 255 255\n3 0 1 2\n";
     let obj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 1 1\nf 1 2 3\n";
     for triangles in [read("a.ply", ply), read("a.obj", obj)] {
-        let color = triangles.color(triangles.faces[0]).unwrap().0;
+        let color = triangles.color(0).unwrap().0;
         assert!(color.abs_diff_eq(glam::Vec3::new(1.0, 2.0, 1.0) / 3.0, 1e-6), "{color}");
     }
     let partly = read("b.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 1 1\nf 1 2 3\n");
@@ -141,7 +141,7 @@ fn nodes_place_a_mesh_and_a_file_that_places_it_without_end_is_refused() {
 fn a_factor_of_a_material_colors_what_it_is_on() {
     let more = r#""materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1]}}]"#;
     let mesh = read("a.glb", &glb(r#""nodes":[{"mesh":0}]"#, more)).unwrap();
-    let color = mesh.color(mesh.faces[0]).unwrap().0;
+    let color = mesh.color(0).unwrap().0;
     assert!(color.abs_diff_eq(glam::Vec3::new(0.5, 0.25, 1.0), 1e-6));
 }
 
@@ -161,5 +161,5 @@ fn a_strip_turns_every_second_triangle_and_scalars_of_bytes_are_colors() {
     );
     let mesh = read("a.vtp", text.as_bytes()).unwrap();
     assert_eq!(mesh.faces, [[0, 1, 2], [2, 1, 3]]);
-    assert_eq!(mesh.color(mesh.faces[1]).unwrap().0, glam::Vec3::X);
+    assert_eq!(mesh.color(1).unwrap().0, glam::Vec3::X);
 }

@@ -1,4 +1,7 @@
-//! Wavefront OBJ: vertices, their colors and normals, places in a texture, and polygons as lines of text; materials are not read.
+//! Wavefront OBJ: vertices, their colors and normals, places in a texture, polygons and what they are made of, as lines of text.
+
+mod library;
+mod made_of;
 
 use std::path::Path;
 
@@ -6,18 +9,21 @@ use glam::DVec3;
 
 use super::triangles::{Triangles, add_fan, fans, place_upward};
 use crate::components::Color;
+use made_of::MadeOf;
 
-/// Reads the lines `v x y z`, `v x y z r g b`, `vn x y z`, `vt u v` and `f a/t/n b/t/n c/t/n …`; the rest is left out.
-pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
+/// Reads the lines `v x y z`, `v x y z r g b`, `vn x y z`, `vt u v`, `f a/t/n b/t/n c/t/n …`, `mtllib` and `usemtl`; the rest is left out.
+pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     let mut triangles = Triangles::default();
-    let mut polygons = 0;
+    let (mut polygons, mut made_of) = (0, MadeOf::default());
     for (at, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
         let line = String::from_utf8_lossy(line);
         let mut words = line.split_whitespace();
         let wrong = |what: &str| format!("line {} is {what}; fetch the file again", at + 1);
         let kind = words.next();
         if kind == Some("f") {
+            let before = triangles.faces.len();
             polygons += usize::from(add_polygon(&mut triangles, words).map_err(wrong)? > 3);
+            made_of.cover(before, triangles.faces.len());
             continue;
         }
         let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
@@ -38,13 +44,21 @@ pub(super) fn read(bytes: &[u8], _: &Path) -> Result<Triangles, String> {
                 let u = number().ok_or_else(|| wrong("no place in a texture"))?;
                 triangles.places.values.push(place_upward(u, number().unwrap_or(0.0)));
             }
+            Some("mtllib") => made_of.look_up(argument(&line), path),
+            Some("usemtl") => made_of.take(argument(&line)),
             _ => {}
         }
     }
+    made_of.color(&mut triangles);
     triangles.warnings.extend(fans(polygons));
     triangles.normals.tidy();
     triangles.places.tidy();
     Ok(triangles)
+}
+
+/// What follows the first word of a line, which may have blanks in it.
+fn argument(line: &str) -> &str {
+    line.trim().split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim())
 }
 
 /// Adds the triangles of a polygon, whose corners are the words, and how many corners it has; the error is what is wrong.

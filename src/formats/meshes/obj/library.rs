@@ -1,0 +1,181 @@
+//! Materials of an OBJ (`.mtl`): a diffuse color and the picture that it multiplies, as lines of text.
+
+use std::collections::HashMap;
+
+use super::{argument, color_of};
+use crate::components::Color;
+
+/// A material, as far as it is read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct ObjMaterial {
+    /// `Kd`.
+    pub color: Option<Color>,
+    /// `map_Kd`: the picture that its color multiplies.
+    pub picture: Option<PictureLine>,
+    /// `map_d`: the picture of its opacity.
+    pub veil: Option<String>,
+    /// `d`, opaque at 1.
+    opacity: Option<f64>,
+    /// `Tr`, opaque at 0.
+    transparency: Option<f64>,
+}
+
+/// A picture that a material names.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct PictureLine {
+    /// Its path as written, with `/`.
+    pub name: String,
+    /// Whether its outermost texels go on outside it.
+    pub is_clamped: bool,
+    /// Whether it is moved, scaled or made rough, which is not read.
+    pub is_moved: bool,
+}
+
+impl ObjMaterial {
+    /// Whether something is seen through all of it.
+    pub fn is_clear(&self) -> bool {
+        match (self.opacity, self.transparency) {
+            (Some(opacity), _) => opacity < 1.0,
+            (None, transparency) => transparency.is_some_and(|clear| clear > 0.0),
+        }
+    }
+
+    /// The color that its picture is multiplied by: programs that write black beside a picture mean the picture.
+    pub fn tint(&self) -> Option<Color> {
+        let is_black = |color: &Color| color.0 == glam::Vec3::ZERO;
+        self.color.filter(|color| self.picture.is_none() || !is_black(color))
+    }
+}
+
+/// Adds the materials of a file, by name: the lines `newmtl`, `Kd`, `d`, `Tr`, `map_Kd` and `map_d`; the rest is left out.
+pub(super) fn add_materials(bytes: &[u8], materials: &mut HashMap<String, ObjMaterial>) {
+    let mut name = None;
+    for line in bytes.split(|&byte| byte == b'\n') {
+        let line = String::from_utf8_lossy(line);
+        let rest = argument(&line);
+        let kind = line.split_whitespace().next().unwrap_or_default();
+        if kind == "newmtl" {
+            materials.insert(rest.to_owned(), ObjMaterial::default());
+            name = Some(rest.to_owned());
+            continue;
+        }
+        let Some(material) = name.as_ref().and_then(|name| materials.get_mut(name)) else {
+            continue;
+        };
+        match kind {
+            "Kd" => material.color = color(rest),
+            "d" => material.opacity = last_number(rest),
+            "Tr" => material.transparency = last_number(rest),
+            "map_Kd" => material.picture = picture(rest),
+            "map_d" => material.veil = picture(rest).map(|picture| picture.name),
+            _ => {}
+        }
+    }
+}
+
+/// One number for all channels or three; other ways to state a color are none.
+fn color(rest: &str) -> Option<Color> {
+    let numbers: Option<Vec<f64>> = rest.split_whitespace().map(|word| word.parse().ok()).collect();
+    match numbers?[..] {
+        [grey] => Some(color_of([grey; 3])),
+        [r, g, b, ..] => Some(color_of([r, g, b])),
+        _ => None,
+    }
+}
+
+/// The number that ends a line, after options such as `-halo`.
+fn last_number(rest: &str) -> Option<f64> {
+    rest.split_whitespace().next_back()?.parse().ok()
+}
+
+/// The picture of a line of options and a name, which may have blanks in it.
+fn picture(rest: &str) -> Option<PictureLine> {
+    let mut found = PictureLine::default();
+    let mut rest = rest;
+    while rest.starts_with('-') {
+        let (option, after) = rest.split_once(char::is_whitespace)?;
+        let numbers = match option {
+            "-s" | "-o" | "-t" => 3,
+            "-mm" => 2,
+            _ => 1,
+        };
+        found.is_moved |= ["-s", "-o", "-t"].contains(&option);
+        rest = after.trim_start();
+        for at in 0..numbers {
+            let (word, after) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+            // Of three numbers the last two may be left out, and then a name begins.
+            if at > 0 && word.parse::<f64>().is_err() {
+                break;
+            }
+            found.is_clamped |= option == "-clamp" && word == "on";
+            rest = after.trim_start();
+        }
+    }
+    found.name = rest.trim().replace('\\', "/");
+    (!found.name.is_empty()).then_some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn material(text: &str) -> ObjMaterial {
+        let mut materials = HashMap::new();
+        add_materials(format!("newmtl a b\r\n{text}").as_bytes(), &mut materials);
+        materials.remove("a b").unwrap()
+    }
+
+    #[test]
+    fn options_stand_before_a_name_that_may_have_blanks() {
+        for (line, name, is_clamped, is_moved) in [
+            ("map_Kd a b.png", "a b.png", false, false),
+            ("\tmap_Kd -clamp on a.png", "a.png", true, false),
+            ("map_Kd -s 1 2 3 -o 1 my 2.png", "my 2.png", false, true),
+            ("map_Kd -s 2 2 a.png", "a.png", false, true),
+            ("map_Kd -bm 0.5 -mm 0 1 c:\\x\\a.png", "c:/x/a.png", false, false),
+        ] {
+            let name = name.to_owned();
+            let expected = Some(PictureLine { name, is_clamped, is_moved });
+            assert_eq!(material(line).picture, expected, "{line}");
+        }
+        for line in ["map_Kd", "map_Kd -s", "map_Kd -s 1", "map_Kd -clamp on"] {
+            assert_eq!(material(line).picture, None, "{line}");
+        }
+    }
+
+    #[test]
+    fn what_is_seen_through_is_told_by_d_and_else_by_tr() {
+        let clear = ["d 0.5", "d -halo 0.5", "Tr 0.5", "Tr 0\nd 0.9"];
+        assert!(clear.iter().all(|line| material(line).is_clear()));
+        let opaque = ["d 1", "Tr 0", "Tr 1\nd 1", "Kd 1 1 1"];
+        assert!(opaque.iter().all(|line| !material(line).is_clear()));
+    }
+
+    #[test]
+    fn black_beside_a_picture_is_no_color() {
+        assert_eq!(material("Kd 0 0 0").tint(), Some(Color(glam::Vec3::ZERO)));
+        assert_eq!(material("Kd 0 0 0\nmap_Kd a.png").tint(), None);
+        assert_eq!(material("Kd 1\nmap_Kd a.png").tint(), Some(Color::WHITE));
+        assert_eq!(material("Kd spectral a.rfl").tint(), None);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1500))]
+
+        #[test]
+        fn changed_bytes_never_panic(
+            changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
+            length in 0_usize..90,
+        ) {
+            let text = "newmtl a\nKd 1 .5 0\nd -halo 1\nTr 0\nmap_Kd -s 1 2 -clamp on a b.png\nmap_d -mm 0 1 c\n";
+            let mut bytes = text.as_bytes()[..length.min(text.len())].to_vec();
+            for (at, value) in changes.iter().filter(|_| length > 0) {
+                let at = at.index(bytes.len());
+                bytes[at] = *value;
+            }
+            add_materials(&bytes, &mut HashMap::new());
+        }
+    }
+}

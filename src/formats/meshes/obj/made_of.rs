@@ -1,0 +1,168 @@
+//! What the triangles of an OBJ are made of: the materials that it names, looked up in the files that it names.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::super::pictures::{MeshPicture, PictureAlpha, PicturePlace, add_picture, say_once};
+use super::super::triangles::Triangles;
+use super::library::{ObjMaterial, add_materials};
+use crate::components::{Color, Wrap};
+use crate::formats::stream::Stream;
+
+/// Files of materials that are looked into: no OBJ that is drawn here names more.
+const MOST_LIBRARIES: usize = 64;
+
+/// The number of no material.
+const NONE: u32 = u32::MAX;
+
+/// The materials of a file, while it is read.
+#[derive(Default)]
+pub(super) struct MadeOf {
+    /// Names of materials, and their numbers in the order of their first use.
+    numbers: HashMap<String, u32>,
+    /// The number of the one that is taken now, if any.
+    now: Option<u32>,
+    /// The number of the material of each triangle; empty as long as none is taken.
+    of: Vec<u32>,
+    /// By name, what files of materials hold.
+    materials: HashMap<String, ObjMaterial>,
+    /// The folder of the file.
+    folder: PathBuf,
+    libraries: Vec<PathBuf>,
+    read: Vec<PathBuf>,
+    warnings: Vec<String>,
+}
+
+impl MadeOf {
+    /// Reads the files of materials that a line names, from the folder of the mesh's file.
+    pub fn look_up(&mut self, names: &str, path: &Path) {
+        path.parent().unwrap_or(Path::new("")).clone_into(&mut self.folder);
+        // A name may have blanks in it, and there may be several.
+        let is_one = beside(&self.folder, names).is_file();
+        let several = names.split_whitespace().filter(|_| !is_one);
+        let one = Some(names).filter(|_| is_one);
+        for name in one.into_iter().chain(several) {
+            let file = beside(&self.folder, name);
+            if self.libraries.contains(&file) {
+                continue;
+            }
+            if self.libraries.len() == MOST_LIBRARIES {
+                let sentence = format!(
+                    "it names more than {MOST_LIBRARIES} files of materials, and the rest are not read; join them into one"
+                );
+                return say_once(&mut self.warnings, sentence);
+            }
+            match Stream::open(&file).and_then(|mut stream| stream.rest()) {
+                Ok(bytes) => {
+                    add_materials(&bytes, &mut self.materials);
+                    self.read.push(file.clone());
+                }
+                Err(_) => say_once(
+                    &mut self.warnings,
+                    format!(
+                        "its materials are not read, for {} is not there; put it beside the mesh",
+                        file.display()
+                    ),
+                ),
+            }
+            self.libraries.push(file);
+        }
+    }
+
+    /// What follows is made of the material of that name.
+    pub fn take(&mut self, name: &str) {
+        let next = self.numbers.len() as u32;
+        self.now = Some(*self.numbers.entry(name.to_owned()).or_insert(next));
+    }
+
+    /// The triangles from `before` on, `count` in all, are of the material that is taken.
+    pub fn cover(&mut self, before: usize, count: usize) {
+        if let Some(now) = self.now {
+            self.of.resize(before, NONE);
+            self.of.resize(count, now);
+        }
+    }
+
+    /// Gives the triangles the colors and pictures of their materials: white where others have a color and they have none.
+    pub fn color(mut self, triangles: &mut Triangles) {
+        let mut names: Vec<_> = std::mem::take(&mut self.numbers).into_iter().collect();
+        names.sort_by_key(|(_, number)| *number);
+        let used: Vec<_> = names.iter().map(|(name, _)| self.materials.remove(name)).collect();
+        let known = || used.iter().flatten();
+        let mut pictures =
+            Pictures { folder: &self.folder, all: Vec::new(), known: HashMap::new() };
+        let numbers: Vec<_> = used
+            .iter()
+            .map(|material| pictures.number(material.as_ref()?, &mut self.warnings))
+            .collect();
+        self.of.resize(triangles.faces.len(), NONE);
+        if known().any(|material| material.tint().is_some()) {
+            let tint = |number: &u32| used.get(*number as usize)?.as_ref()?.tint();
+            let colors = self.of.iter().map(|number| tint(number).unwrap_or(Color::WHITE));
+            triangles.face_colors = colors.collect();
+        }
+        if !pictures.all.is_empty() {
+            let number = |at: &u32| numbers.get(*at as usize).copied().flatten().unwrap_or(NONE);
+            triangles.pictured = self.of.iter().map(number).collect();
+        }
+        triangles.pictures = pictures.all;
+        let clear = known().filter(|material| material.is_clear() || veil_apart(material)).count();
+        let missing = used.len() - known().count();
+        if clear > 0 {
+            self.warnings.push(format!("{clear} of its materials are seen through (`d`, `Tr`, `map_d`), which is not read; state `opacity` of its `surface`"));
+        }
+        if missing > 0 && !self.read.is_empty() {
+            self.warnings.push(format!("{missing} of its materials are in no file that it names, and what is made of them is plain; export it again"));
+        }
+        triangles.beside.extend(self.read);
+        triangles.warnings.extend(self.warnings);
+    }
+}
+
+/// Whether a material's opacity is a picture other than the alpha of that of its color.
+fn veil_apart(material: &ObjMaterial) -> bool {
+    let own = material.picture.as_ref().map(|picture| &picture.name);
+    material.veil.is_some() && material.veil.as_ref() != own
+}
+
+/// The pictures that materials name, each once.
+struct Pictures<'f> {
+    folder: &'f Path,
+    all: Vec<MeshPicture>,
+    known: HashMap<(String, bool, bool), u32>,
+}
+
+impl Pictures<'_> {
+    /// The number of a material's picture, if it names one.
+    fn number(&mut self, material: &ObjMaterial, warnings: &mut Vec<String>) -> Option<u32> {
+        let picture = material.picture.as_ref()?;
+        if picture.is_moved {
+            say_once(
+                warnings,
+                "it moves or scales pictures (`-o`, `-s`, `-t` of `map_Kd`), which is not read; they lie where its `vt` alone say",
+            );
+        }
+        let is_veil = material.veil.as_ref() == Some(&picture.name);
+        let key = (picture.name.clone(), picture.is_clamped, is_veil);
+        if let Some(&number) = self.known.get(&key) {
+            return Some(number);
+        }
+        let added = MeshPicture {
+            name: picture.name.clone(),
+            place: PicturePlace::Beside(beside(self.folder, &picture.name)),
+            alpha: if is_veil { PictureAlpha::Opacity(1.0) } else { PictureAlpha::Ignored },
+            wrap: if picture.is_clamped { Wrap::Clamp } else { Wrap::Repeat },
+        };
+        let number = add_picture(&mut self.all, added).map_err(|said| say_once(warnings, said));
+        self.known.insert(key, number.ok()?);
+        number.ok()
+    }
+}
+
+/// The file of that name, from a folder; one that is not there, but beside, is meant where a path of another machine is written.
+fn beside(folder: &Path, name: &str) -> PathBuf {
+    let name = name.replace('\\', "/");
+    let stated = folder.join(&name);
+    let bare = Path::new(&name).file_name().map(|bare| folder.join(bare));
+    bare.filter(|bare| !stated.is_file() && bare.is_file()).unwrap_or(stated)
+}
