@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gelray::formats::meshes::{mesh_format, read_mesh};
+use gelray::formats::meshes::{MeshPicture, mesh_format, read_mesh};
 use gelray::polygon::enclosed::Enclosed;
 use gelray::view::extent::Extent;
 use glam::DVec3;
@@ -23,7 +23,11 @@ pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
     let extent = extent.map_or("none".to_owned(), |Extent { low, high }| {
         format!("{} to {}", point(low), point(high))
     });
-    let colors = if triangles.colors.is_empty() { "" } else { ", in the colors of its vertices" };
+    let colors = match (triangles.colors.is_empty(), triangles.face_colors.is_empty()) {
+        (false, _) => ", in the colors of its vertices",
+        (true, false) => ", in the colors of its materials",
+        (true, true) => "",
+    };
     let rows = [
         ("file", path.display().to_string()),
         (
@@ -34,7 +38,18 @@ pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
         ("area", number(enclosed.area)),
         ("closed", closed(&enclosed)),
     ];
-    Ok(table(&rows.map(|(name, text)| [name.to_owned(), text]), &[]))
+    let pictures = triangles.pictures.iter().map(|own| ("picture", picture(own)));
+    let rows = rows.into_iter().chain(pictures);
+    let rows: Vec<_> = rows.map(|(name, text)| [name.to_owned(), text]).collect();
+    Ok(table(&rows, &[]))
+}
+
+/// What a picture is called and how large it is, or why it cannot be had.
+fn picture(own: &MeshPicture) -> String {
+    match own.weighed() {
+        Ok(([width, height], _)) => format!("{}, {width} × {height} pixels", own.name),
+        Err(problem) => format!("{}, which {problem}", own.name),
+    }
 }
 
 fn closed(enclosed: &Enclosed) -> String {

@@ -26,7 +26,7 @@ pub struct Texture {
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Textured {
-    /// The name of an entity with a `texture`, or of a formula.
+    /// The name of an entity with a `texture`, or of a formula; or of the mesh itself, for the pictures that its file (glTF, OBJ) brings.
     pub texture: String,
     /// World points of the texture's top left, top right and bottom left corners; default: the polygon's first, second and last vertex,
     /// or where a mesh's file (OBJ, PLY, glTF, VTK) says that its triangles lie in it.

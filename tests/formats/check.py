@@ -444,6 +444,76 @@ def normals_and_places_of_trimesh_are_painted_alike(folder):
     painted_alike(paths, folder)
 
 
+def looks(path, folder, texture=""):
+    """A picture of a mesh as its file has it look, or in a texture that the scene states."""
+    scene = folder / "looks.toml"
+    stated = 'textured = { texture = "stated" }' if texture else ""
+    scene.write_text(f'''
+[[entity]]
+name = "mesh"
+mesh = {{ file = "{path}", space = "lps", unit_mm = 1 }}
+surface = {{ ambient = 1, diffuse = 0 }}
+{stated}
+[[entity]]
+name = "observer"
+view = {{ size = [96, 96], azimuth = 20, elevation = 10 }}
+''')
+    if texture:
+        scene.write_text(scene.read_text() + f'[[entity]]\nname = "stated"\ntexture = {{ file = "{texture}" }}\n')
+    done = run("render", scene, "-o", folder / "looks.npy", "--exact")
+    assert "picture" not in done.stderr, done.stderr
+    return np.load(folder / "looks.npy")
+
+
+@check("trimesh", "PIL")
+def pictures_of_trimesh_are_laid_as_those_that_are_stated(folder):
+    import trimesh
+    from PIL import Image
+
+    y, x = np.mgrid[0:64, 0:64]
+    picture = Image.fromarray(np.stack([4 * x, 4 * y, 255 * (x > y)], axis=-1).astype("u1"))
+    picture.save(folder / "stated.png")
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=10.0)
+    uv = ball.vertices[:, [0, 2]] / 22 + 0.5
+    white = [255, 255, 255, 255]
+    for name, material in [
+        ("ball.glb", trimesh.visual.material.PBRMaterial(baseColorTexture=picture)),
+        ("ball.gltf", trimesh.visual.material.PBRMaterial(baseColorTexture=picture)),
+        ("ball.obj", trimesh.visual.material.SimpleMaterial(image=picture, diffuse=white)),
+    ]:
+        visual = trimesh.visual.TextureVisuals(uv=uv, material=material)
+        mesh = trimesh.Trimesh(ball.vertices, ball.faces, visual=visual, process=False)
+        if name == "ball.gltf":
+            for inner, content in trimesh.Scene(mesh).export(file_type="gltf").items():
+                (folder / (name if inner == "model.gltf" else inner)).write_bytes(content)
+        else:
+            mesh.export(folder / name)
+        own = looks(folder / name, folder)
+        assert own[..., 3].max() > 0.9 and np.ptp(own[40:56, 40:56, 0]) > 0.05, "no picture is seen"
+        apart = np.abs(own - looks(folder / name, folder, "stated.png")).max()
+        assert apart < 1e-3, f"{name} differs by {apart}"
+
+
+@check("trimesh", "PIL")
+def several_pictures_and_a_factor_of_trimesh_are_each_on_its_own(folder):
+    import trimesh
+    from PIL import Image
+
+    place, scene = np.eye(4), trimesh.Scene()
+    materials = [{"baseColorTexture": Image.new("RGB", (4, 4), color)} for color in [(255, 0, 0), (0, 0, 255)]]
+    materials.append({"baseColorFactor": [0, 255, 0, 255]})
+    for at, stated in enumerate(materials):
+        ball = trimesh.creation.icosphere(subdivisions=2, radius=4.0)
+        material = trimesh.visual.material.PBRMaterial(**stated)
+        visual = trimesh.visual.TextureVisuals(uv=ball.vertices[:, :2], material=material)
+        place[0, 3] = 10 * at
+        scene.add_geometry(trimesh.Trimesh(ball.vertices, ball.faces, visual=visual, process=False), transform=place)
+    scene.export(folder / "balls.glb")
+    seen = looks(folder / "balls.glb", folder)
+    for channel, count in enumerate([(seen[..., c] > 0.9).sum() for c in range(3)]):
+        assert count > 100, f"the ball of channel {channel} is not seen"
+
+
 @check("vtk")
 def normals_and_places_of_vtk_are_painted_alike(folder):
     import vtk

@@ -42,6 +42,40 @@ fn places_in_a_file_lay_a_texture_as_corners_do() {
 }
 
 #[test]
+fn a_picture_of_a_file_s_own_is_laid_as_one_that_is_stated() {
+    let place = Place::new();
+    place.done("render cross.toml -o bark.png");
+    place.write("square.mtl", "newmtl bark\nKd 1 1 1\nmap_Kd bark.png\nmap_d bark.png\n");
+    let places = "vt 0 1\nvt 1 1\nvt 1 0\nvt 0 0\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n";
+    place.write("square.obj", format!("mtllib square.mtl\nusemtl bark\n{SQUARE}{places}"));
+    let mesh = "mesh = { file = \"square.obj\" }";
+    let stated = scene(mesh).replace("portrait", "bark");
+    place.write(
+        "stated.toml",
+        format!("{stated}[[entity]]\nname = \"bark\"\ntexture = {{ file = \"bark.png\" }}\n"),
+    );
+    place.write("own.toml", scene(mesh).replace("portrait", "square"));
+    place.done("render stated.toml --exact -o a.npy");
+    place.done("render own.toml --exact -o b.npy");
+    assert!(apart(&place, "a.npy", "b.npy") < 1e-6, "{}", apart(&place, "a.npy", "b.npy"));
+    // Without a word of the scene it is there too, and no picture takes its place.
+    place.write(
+        "plain.toml",
+        scene(mesh)
+            .lines()
+            .filter(|line| !line.starts_with("textured"))
+            .collect::<Vec<_>>()
+            .join("\n"),
+    );
+    place.done("render plain.toml --exact -o c.npy");
+    assert!(apart(&place, "a.npy", "c.npy") < 0.2, "another filter");
+    place.refused("render plain.toml -o bark.png", 2, &["bark.png"]);
+    place.write("square.mtl", "newmtl bark\nKd 1 1 1\n");
+    place.done("render plain.toml --exact -o d.npy");
+    assert!(apart(&place, "a.npy", "d.npy") > 0.3, "the picture makes a difference");
+}
+
+#[test]
 fn normals_of_a_file_light_it_unless_those_of_triangles_are_asked_for() {
     let place = Place::new();
     let scene = |more: &str| {
