@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{argument, color_of};
+use super::line::{argument, color_of};
 use crate::components::Color;
 
 /// A material, as far as it is read.

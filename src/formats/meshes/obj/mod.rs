@@ -1,6 +1,7 @@
 //! Wavefront OBJ: vertices, their colors and normals, places in a texture, polygons and what they are made of, as lines of text.
 
 mod library;
+mod line;
 mod made_of;
 
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::triangles::{Triangles, add_fan, fans, place_upward};
-use crate::components::Color;
+use line::{argument, color_of};
 use made_of::MadeOf;
 
 /// Reads the lines `v x y z`, `v x y z r g b`, `vn x y z`, `vt u v`, `f a/t/n b/t/n c/t/n …`, `mtllib` and `usemtl`; the rest is left out.
@@ -56,11 +57,6 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     Ok(triangles)
 }
 
-/// What follows the first word of a line, which may have blanks in it.
-fn argument(line: &str) -> &str {
-    line.trim().split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim())
-}
-
 /// Adds the triangles of a polygon, whose corners are the words, and how many corners it has; the error is what is wrong.
 fn add_polygon<'w>(
     triangles: &mut Triangles,
@@ -82,11 +78,6 @@ fn add_polygon<'w>(
     add_fan(&mut triangles.places.faces, &places);
     add_fan(&mut triangles.normals.faces, &normals);
     Ok(vertices.len())
-}
-
-/// The color of sRGB channels that are 0..=1.
-fn color_of(channels: [f64; 3]) -> Color {
-    Color::from_srgb(channels.map(|channel| (channel as f32).clamp(0.0, 1.0)))
 }
 
 /// A number counted from 1 to `count`, or counted back from the last by one below 0, as an index.
