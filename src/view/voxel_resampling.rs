@@ -5,22 +5,24 @@
 //! passed over; other filters than a box sum over such places.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4, f32x8, f32x16, u8x16, u8x64};
+mod lattice_walk;
+mod met_rays;
+mod middles;
+mod upright;
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4, f32x8};
 use glam::{DVec2, Vec4};
 use rayon::prelude::*;
 
-use super::met_rays::MetRays;
 use super::picture::within_opacity;
 use super::samples::POSITIONS;
 use super::voxel_rays::VoxelRays;
 use crate::components::PixelFilter;
+use lattice_walk::LatticeWalk;
+use met_rays::MetRays;
+use middles::at_middles;
+use upright::Upright;
 
-/// Bits of a place between two rays.
-const FRACTION_BITS: u32 = 32;
-/// A ray's distance to the next in such places.
-const UNIT: f64 = (1_u64 << FRACTION_BITS) as f64;
-/// Of which so many are looked at: exact in an f32.
-const PLACE_BITS: u32 = 24;
 /// Rows of pixels that are made together.
 const ROWS: usize = 16;
 
@@ -32,6 +34,15 @@ pub(super) fn pixels(rays: &VoxelRays, size: [usize; 2], filter: PixelFilter) ->
     }
     let taps = taps(rays, filter);
     let (met, level) = (MetRays::of(rays), Level::new());
+    let upright = if taps.len() == 1 { Upright::of(rays, &met, size[1]) } else { None };
+    if let Some(upright) = upright {
+        let high =
+            size[1].div_ceil(4 * rayon::current_num_threads()).clamp(ROWS, upright::MOST_ROWS);
+        pixels.par_chunks_mut(size[0] * high).enumerate().for_each(|(chunk, rows)| {
+            dispatch!(level, simd => upright.pixels(simd, chunk * high, (size[0], rows)));
+        });
+        return pixels;
+    }
     pixels.par_chunks_mut(size[0] * ROWS).enumerate().for_each(|(chunk, rows)| {
         for (at, row) in rows.chunks_exact_mut(size[0]).enumerate() {
             let y = chunk * ROWS + at;
@@ -81,104 +92,6 @@ fn taps(rays: &VoxelRays, filter: PixelFilter) -> Vec<(DVec2, f32)> {
     let (across, down) = (axis(rays.places.right), axis(rays.places.down));
     let pair = |&(y, wy): &(DVec2, f32)| across.iter().map(move |&(x, wx)| (x + y, wx * wy));
     down.iter().flat_map(pair).collect()
-}
-
-/// A place on the lattice, and those one pixel after the other to its right, in fixed point.
-struct LatticeWalk {
-    at: [i64; 2],
-    step: [i64; 2],
-}
-
-impl LatticeWalk {
-    fn from(start: DVec2, right: DVec2) -> Self {
-        let fixed = |place: DVec2| [(place.x * UNIT) as i64, (place.y * UNIT) as i64];
-        Self { at: fixed(start), step: fixed(right) }
-    }
-
-    /// The ray before it along both axes, and how far it is behind that.
-    #[inline(always)]
-    fn next(&mut self) -> ([i64; 2], [f32; 2]) {
-        let at = self.at;
-        self.at = [at[0] + self.step[0], at[1] + self.step[1]];
-        let part = |at: i64| {
-            let part = (at >> (FRACTION_BITS - PLACE_BITS)) & ((1 << PLACE_BITS) - 1);
-            part as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
-        };
-        (at.map(|at| at >> FRACTION_BITS), [part(at[0]), part(at[1])])
-    }
-}
-
-/// The pixels of a row, each what lies at its middle, the first at `start`: by the cubics of Catmull and Rom along both axes
-/// (Keys 1981), which pass through the rays.
-#[inline(always)]
-fn at_middles<S: Simd>(
-    simd: S,
-    (rays, met): (&VoxelRays, &MetRays),
-    start: DVec2,
-    row: &mut [[f32; 4]],
-) {
-    /// Of the four rays around a place, by the powers of how far it is behind the second; along each axis. They are the weights
-    /// of `volume::filter::Taps`, which, made one number after the other, take as long as all else here.
-    const POWERS: [[[f32; 4]; 2]; 4] = [
-        [[0.0, 1.0, 0.0, 0.0]; 2],
-        [[-0.5, 0.0, 0.5, 0.0]; 2],
-        [[1.0, -2.5, 2.0, -0.5]; 2],
-        [[-0.5, 1.5, -1.5, 0.5]; 2],
-    ];
-    /// The bytes of number n in all four of block n.
-    const EACH: [u8; 64] = {
-        let (mut bytes, mut n) = ([0; 64], 0);
-        while n < 64 {
-            bytes[n] = (4 * (n / 16) + n % 4) as u8;
-            n += 1;
-        }
-        bytes
-    };
-    const LAST: [u8; 16] = [12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15];
-    let [none, first, second, third] = [
-        f32x8::from_slice(simd, POWERS[0].as_flattened()),
-        f32x8::from_slice(simd, POWERS[1].as_flattened()),
-        f32x8::from_slice(simd, POWERS[2].as_flattened()),
-        f32x8::from_slice(simd, POWERS[3].as_flattened()),
-    ];
-    let (each, last) = (u8x64::from_slice(simd, &EACH), u8x16::from_slice(simd, &LAST));
-    let excess = f32x4::from_slice(simd, &[met.excess, met.excess, met.excess, 0.0]);
-    let right = rays.places.right;
-    let [from, to] = met.shown((start, right), row.len());
-    let mut places = LatticeWalk::from(start + right * from as f64, right);
-    for pixel in &mut row[from..to] {
-        let ([i, j], [x, y]) = places.next();
-        let Some(&[low, high]) = met.near.get(j as usize) else { continue };
-        if i < low || i >= high {
-            continue;
-        }
-        let Some([a, b, c, d]) = around(rays, [i, j]) else { continue };
-        let part = simd.combine_f32x4(f32x4::splat(simd, x), f32x4::splat(simd, y));
-        let weights = ((third * part + second) * part + first) * part + none;
-        let (across, down) = simd.split_f32x8(weights);
-        let down = down.as_slice();
-        let a = f32x16::from_slice(simd, a.as_flattened()) * down[0];
-        let b = f32x16::from_slice(simd, b.as_flattened()) * down[1];
-        let c = f32x16::from_slice(simd, c.as_flattened()) * down[2];
-        let d = f32x16::from_slice(simd, d.as_flattened()) * down[3];
-        let across = simd.combine_f32x4(across, across);
-        let across = simd.combine_f32x8(across, across).swizzle_dyn_within_blocks(each);
-        let (left, right) = simd.split_f32x16(((a + b) + (c + d)) * across);
-        let (left, right) = simd.split_f32x8(left + right);
-        let color: f32x4<S> = (left + right).max(0.0);
-        // What the cubics overshoot stays an opacity, and a color within it as those of rays are.
-        let alpha = color.swizzle_dyn(last).min(1.0);
-        color.min(alpha + excess).store_slice(pixel);
-    }
-}
-
-/// The rays around a place that is [`near`](MetRays::near) some: four of four rows, the second before it along both axes.
-#[inline(always)]
-fn around(rays: &VoxelRays, [i, j]: [i64; 2]) -> Option<[&[[f32; 4]; 4]; 4]> {
-    let across = rays.size[0];
-    let first = (j as usize - 1) * across + i as usize - 1;
-    let row = |n: usize| rays.colors.get(first + n * across..)?.first_chunk();
-    Some([row(0)?, row(1)?, row(2)?, row(3)?])
 }
 
 /// Adds so much to the pixels of a row of what lies at places, the first at `start`, between the rays around.
@@ -245,6 +158,7 @@ mod tests {
     use super::*;
     use crate::components::Filter;
     use crate::view::voxel_rays::LatticePlaces;
+    use crate::volume::field::tests::levels;
     use crate::volume::filter::Taps;
 
     /// A lattice of 40 × 30 rays whose colors rise evenly, with pixels so many rays apart.
@@ -270,6 +184,60 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Rays that differ, some of which met nothing, under pixels of a picture that stands upright; `below` is from a pixel to
+    /// the next below.
+    fn upright([aside, below]: [f64; 2], size: [usize; 2]) -> VoxelRays {
+        let number = |at: usize| ((at as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f32;
+        let mut met = vec![[0, 0]; size[1]];
+        for (j, met) in met.iter_mut().enumerate().skip(4).take(size[1] - 9) {
+            *met = [3 + j as u32 % 5, (size[0] - 4 - j % 7) as u32];
+        }
+        let color = |at: usize| {
+            let [from, to] = met[at / size[0]].map(|end| end as usize);
+            let alpha = number(4 * at) / 2.0_f32.powi(24);
+            let channel = |n: usize| alpha * number(4 * at + n) / 2.0_f32.powi(24);
+            let color = [channel(1), channel(2), channel(3), alpha];
+            if (from..to).contains(&(at % size[0])) { color } else { [0.0; 4] }
+        };
+        let colors = (0..size[0] * size[1]).map(color).collect();
+        let first = if below < 0.0 { size[1] as f64 - 3.0 } else { 1.7 };
+        let place = |at: DVec2| DVec2::new(2.3 + 0.43 * at.x, first + aside * at.x + below * at.y);
+        VoxelRays { size, colors, met, places: LatticePlaces::of(place) }
+    }
+
+    #[test]
+    fn an_upright_picture_is_what_each_pixel_of_it_is_alone_with_every_set_of_instructions() {
+        for steps in [[0.0, 0.4], [0.9, -0.7], [-0.13, 1.0], [0.3, 0.0]] {
+            let (rays, [width, height]) = (upright(steps, [60, 90]), [131, 150]);
+            let made = pixels(&rays, [width, height], PixelFilter::Box);
+            let met = MetRays::of(&rays);
+            let mut expected = vec![[0.0; 4]; width * height];
+            for (y, row) in expected.chunks_exact_mut(width).enumerate() {
+                let start = rays.places.first + rays.places.down * y as f64;
+                dispatch!(Level::new(), simd => at_middles(simd, (&rays, &met), start, row));
+            }
+            assert!(expected.iter().filter(|pixel| pixel[3] > 0.0).count() > 1000, "{steps:?}");
+            let both = || made.as_flattened().iter().zip(expected.as_flattened());
+            let worst = both().map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(worst < 2e-6, "{steps:?} {worst}");
+            for (level, high) in levels().into_iter().zip([64, 16, 37, 50]) {
+                let lattice = Upright::of(&rays, &met, height).expect("it stands upright");
+                let mut again = vec![[0.0; 4]; width * height];
+                for (chunk, rows) in again.chunks_mut(width * high).enumerate() {
+                    dispatch!(level, simd => lattice.pixels(simd, chunk * high, (width, rows)));
+                }
+                assert_eq!(again, made, "{level:?} {high}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_lattice_that_leans_is_not_upright() {
+        let mut rays = upright([0.2, 0.5], [60, 90]);
+        rays.places.down.x = 1e-6;
+        assert!(Upright::of(&rays, &MetRays::of(&rays), 150).is_none());
     }
 
     #[test]

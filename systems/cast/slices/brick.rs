@@ -9,8 +9,9 @@ use fearless_simd::{f32x16, u64x8};
 use glam::Vec4;
 
 use super::shear::Slice;
-use super::tile::{Tile, Window, fourth};
+use super::tile::{Tile, Window};
 use crate::view::composite::{recolor, thicken_each};
+use crate::view::four_colors::fourth;
 use crate::view::samples::Counts;
 use crate::volume::gel::{CELLS, ROW, TEXELS, Texel};
 

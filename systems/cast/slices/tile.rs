@@ -6,6 +6,7 @@ use fearless_simd::{f32x16, u8x64, u64x8};
 use glam::Vec3;
 
 use crate::view::composite::Gathered;
+use crate::view::four_colors::fourth;
 
 /// Rays across a tile; with eight more on either side their bits are a word.
 pub(super) const WIDE: usize = 48;
@@ -185,18 +186,4 @@ impl Four<'_> {
         let stopped = (stopped | stopped >> 3 | stopped >> 6 | stopped >> 9) & 0xf;
         *self.open &= !(stopped << self.column);
     }
-}
-
-/// The last channel of each of four, in all four of its channels.
-#[inline(always)]
-pub(super) fn fourth<S: Simd>(simd: S, channels: f32x16<S>) -> f32x16<S> {
-    const LAST: [u8; 64] = {
-        let (mut bytes, mut n) = ([0; 64], 0);
-        while n < 64 {
-            bytes[n] = 12 + (n as u8 & 3);
-            n += 1;
-        }
-        bytes
-    };
-    channels.swizzle_dyn_within_blocks(u8x64::from_slice(simd, &LAST))
 }

@@ -1,0 +1,86 @@
+//! Pixels that are smaller than the distance between rays: each is what lies at its middle.
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
+
+use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f32x16, u8x16, u8x64};
+use glam::DVec2;
+
+use super::lattice_walk::LatticeWalk;
+use super::met_rays::MetRays;
+use crate::view::voxel_rays::VoxelRays;
+
+/// What each of the four rays around a place counts, by the powers of how far it is behind the second: the cubics of Catmull
+/// and Rom (Keys 1981), which pass through the rays. They are the weights of `volume::filter::Taps`, which, made one number
+/// after the other, take as long as all else here.
+pub(super) const CUBICS: [[f32; 4]; 4] =
+    [[0.0, 1.0, 0.0, 0.0], [-0.5, 0.0, 0.5, 0.0], [1.0, -2.5, 2.0, -0.5], [-0.5, 1.5, -1.5, 0.5]];
+
+/// The bytes of number n in all four of block n.
+pub(super) const EACH: [u8; 64] = {
+    let (mut bytes, mut n) = ([0; 64], 0);
+    while n < 64 {
+        bytes[n] = (4 * (n / 16) + n % 4) as u8;
+        n += 1;
+    }
+    bytes
+};
+
+/// The pixels of a row, the first at `start`: cubics along both axes.
+#[inline(always)]
+pub(super) fn at_middles<S: Simd>(
+    simd: S,
+    (rays, met): (&VoxelRays, &MetRays),
+    start: DVec2,
+    row: &mut [[f32; 4]],
+) {
+    const LAST: [u8; 16] = [12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15];
+    macro_rules! both_axes {
+        ($power:expr) => {
+            f32x8::from_slice(simd, [CUBICS[$power]; 2].as_flattened())
+        };
+    }
+    let [none, first] = [both_axes!(0), both_axes!(1)];
+    let [second, third] = [both_axes!(2), both_axes!(3)];
+    let (each, last) = (u8x64::from_slice(simd, &EACH), u8x16::from_slice(simd, &LAST));
+    let excess = f32x4::from_slice(simd, &[met.excess, met.excess, met.excess, 0.0]);
+    let right = rays.places.right;
+    let [from, to] = met.shown((start, right), row.len());
+    let mut places = LatticeWalk::from(start + right * from as f64, right);
+    for pixel in &mut row[from..to] {
+        let ([i, j], [x, y]) = places.next();
+        let Some(&[low, high]) = met.near.get(j as usize) else { continue };
+        if i < low || i >= high {
+            continue;
+        }
+        let Some([a, b, c, d]) = around(rays, [i, j]) else { continue };
+        let part = simd.combine_f32x4(f32x4::splat(simd, x), f32x4::splat(simd, y));
+        let weights = ((third * part + second) * part + first) * part + none;
+        let (across, down) = simd.split_f32x8(weights);
+        let down = down.as_slice();
+        let a = f32x16::from_slice(simd, a.as_flattened()) * down[0];
+        let b = f32x16::from_slice(simd, b.as_flattened()) * down[1];
+        let c = f32x16::from_slice(simd, c.as_flattened()) * down[2];
+        let d = f32x16::from_slice(simd, d.as_flattened()) * down[3];
+        let across = simd.combine_f32x4(across, across);
+        let across = simd.combine_f32x8(across, across).swizzle_dyn_within_blocks(each);
+        let (left, right) = simd.split_f32x16(((a + b) + (c + d)) * across);
+        let (left, right) = simd.split_f32x8(left + right);
+        let color: f32x4<S> = (left + right).max(0.0);
+        // What the cubics overshoot stays an opacity, and a color within it as those of rays are.
+        let alpha = color.swizzle_dyn(last).min(1.0);
+        color.min(alpha + excess).store_slice(pixel);
+    }
+}
+
+/// The rays around a place that is [`near`](MetRays::near) some: four of four rows, the second before it along both axes.
+#[inline(always)]
+fn around(rays: &VoxelRays, [i, j]: [i64; 2]) -> Option<[&[[f32; 4]; 4]; 4]> {
+    let row = |n| four_of_row(rays, [i, j + n]);
+    Some([row(-1)?, row(0)?, row(1)?, row(2)?])
+}
+
+/// Four rays of row `j`, the second of which is ray `i`.
+#[inline(always)]
+pub(super) fn four_of_row(rays: &VoxelRays, [i, j]: [i64; 2]) -> Option<&[[f32; 4]; 4]> {
+    let first = j as usize * rays.size[0] + i as usize - 1;
+    rays.colors.get(first..)?.first_chunk()
+}
