@@ -8,10 +8,12 @@
 //! of any ray, on planes in place of depths; what a ray sees depends on no tile and no other ray. The picture is made of them
 //! by [`voxel_resampling`](crate::view).
 
+mod ahead;
 mod beam;
 mod brick;
 mod cells;
 mod occupied;
+mod order;
 mod shear;
 mod tile;
 

@@ -164,12 +164,11 @@ impl Columns<'_> {
             let color = color.max(0.0);
             let alpha = fourth(simd, color).min(1.0);
             let color = color.min(alpha + excess);
-            match row[left..].first_chunk_mut::<COLUMNS>() {
-                Some(four) => color.store_slice(four.as_flattened_mut()),
-                None => {
-                    let row = row[left..].as_flattened_mut();
-                    row.copy_from_slice(&color.as_slice()[..row.len()]);
-                }
+            if let Some(four) = row[left..].first_chunk_mut::<COLUMNS>() {
+                color.store_slice(four.as_flattened_mut());
+            } else {
+                let row = row[left..].as_flattened_mut();
+                row.copy_from_slice(&color.as_slice()[..row.len()]);
             }
             places.step(simd, self.below);
             (behind, ahead) = (behind + self.below, ahead + self.below);
