@@ -1,13 +1,14 @@
 //! The picture of rays through voxels: their lattice is interpolated where pixels lie.
 //!
-//! A pixel that is smaller than the distance between rays is what lies at its middle, by cubics through the rays around: between
-//! them nothing else is known. One that is larger is the mean over so many places, interpolated bilinearly, that no ray is
-//! passed over; other filters than a box sum over such places.
+//! A pixel that is not wider than two rays is the mean over it of cubics through the rays around: between them nothing else is
+//! known. One that is wider is the mean over so many places, interpolated bilinearly, that no ray is passed over; other filters
+//! than a box sum over such places.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+mod cubics;
 mod lattice_walk;
+mod leaning;
 mod met_rays;
-mod middles;
 mod upright;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4, f32x8};
@@ -18,9 +19,9 @@ use super::picture::within_opacity;
 use super::samples::POSITIONS;
 use super::voxel_rays::VoxelRays;
 use crate::components::PixelFilter;
+use cubics::Cubics;
 use lattice_walk::LatticeWalk;
 use met_rays::MetRays;
-use middles::at_middles;
 use upright::Upright;
 
 /// Rows of pixels that are made together.
@@ -32,40 +33,59 @@ pub(super) fn pixels(rays: &VoxelRays, size: [usize; 2], filter: PixelFilter) ->
     if !rays.meet_anything() {
         return pixels;
     }
-    let taps = taps(rays, filter);
-    let (met, level) = (MetRays::of(rays), Level::new());
-    let upright = if taps.len() == 1 { Upright::of(rays, &met, size[1]) } else { None };
-    if let Some(upright) = upright {
-        let high =
-            size[1].div_ceil(4 * rayon::current_num_threads()).clamp(ROWS, upright::MOST_ROWS);
-        pixels.par_chunks_mut(size[0] * high).enumerate().for_each(|(chunk, rows)| {
-            dispatch!(level, simd => upright.pixels(simd, chunk * high, (size[0], rows)));
-        });
-        return pixels;
+    let met = MetRays::of(rays);
+    match Cubics::of(&rays.places).filter(|_| filter == PixelFilter::Box) {
+        Some(cubics) => of_cubics((rays, &met), &cubics, (size, &mut pixels)),
+        None => of_places((rays, &met), filter, (size[0], &mut pixels)),
     }
-    pixels.par_chunks_mut(size[0] * ROWS).enumerate().for_each(|(chunk, rows)| {
-        for (at, row) in rows.chunks_exact_mut(size[0]).enumerate() {
-            let y = chunk * ROWS + at;
-            if filter == PixelFilter::Mitchell {
-                summed(rays, &taps, y, row);
-                continue;
-            }
-            let start = rays.places.first + rays.places.down * y as f64;
-            if taps.len() == 1 {
-                dispatch!(level, simd => at_middles(simd, (rays, &met), start, row));
-                continue;
-            }
-            for &(offset, weight) in &taps {
-                let of_row = (start + offset, weight);
-                dispatch!(level, simd => at_places(simd, (rays, &met), of_row, row));
-            }
-            // Weights that sum to 1 may do so but for rounding.
-            for pixel in row {
-                pixel[3] = pixel[3].min(1.0);
-            }
+    pixels
+}
+
+/// Pixels that are means of cubics.
+fn of_cubics(
+    rays: (&VoxelRays, &MetRays),
+    cubics: &Cubics,
+    ([width, height], pixels): ([usize; 2], &mut [[f32; 4]]),
+) {
+    let level = Level::new();
+    if let Some(upright) = Upright::of(rays, cubics, height) {
+        let threads = rayon::current_num_threads();
+        let high = height.div_ceil(4 * threads).clamp(ROWS, upright::MOST_ROWS);
+        pixels.par_chunks_mut(width * high).enumerate().for_each(|(chunk, rows)| {
+            dispatch!(level, simd => upright.pixels(simd, chunk * high, (width, rows)));
+        });
+        return;
+    }
+    let places = &rays.0.places;
+    let rows = pixels.par_chunks_mut(width).with_min_len(ROWS);
+    rows.enumerate().for_each(|(y, row)| {
+        let start = places.first + places.down * y as f64;
+        dispatch!(level, simd => leaning::pixels(simd, rays, (cubics, start), row));
+    });
+}
+
+/// Pixels that are sums over places.
+fn of_places(
+    (rays, met): (&VoxelRays, &MetRays),
+    filter: PixelFilter,
+    (width, pixels): (usize, &mut [[f32; 4]]),
+) {
+    let (taps, level) = (taps(rays, filter), Level::new());
+    let rows = pixels.par_chunks_mut(width).with_min_len(ROWS);
+    rows.enumerate().for_each(|(y, row)| {
+        if filter == PixelFilter::Mitchell {
+            return summed(rays, &taps, y, row);
+        }
+        let start = rays.places.first + rays.places.down * y as f64;
+        for &(offset, weight) in &taps {
+            let of_row = (start + offset, weight);
+            dispatch!(level, simd => at_places(simd, (rays, met), of_row, row));
+        }
+        // Weights that sum to 1 may do so but for rounding.
+        for pixel in row {
+            pixel[3] = pixel[3].min(1.0);
         }
     });
-    pixels
 }
 
 /// Where a pixel's parts are on the lattice, from its middle, and their weights, which sum to 1.
@@ -209,21 +229,22 @@ mod tests {
 
     #[test]
     fn an_upright_picture_is_what_each_pixel_of_it_is_alone_with_every_set_of_instructions() {
-        for steps in [[0.0, 0.4], [0.9, -0.7], [-0.13, 1.0], [0.3, 0.0]] {
-            let (rays, [width, height]) = (upright(steps, [60, 90]), [131, 150]);
+        for steps in [[0.0, 0.4], [0.9, -0.7], [-0.13, 1.0], [0.3, 0.0], [-1.1, 1.6]] {
+            let (rays, [width, height]) = (upright(steps, [64, 90]), [131, 150]);
             let made = pixels(&rays, [width, height], PixelFilter::Box);
-            let met = MetRays::of(&rays);
+            let (met, cubics) = (MetRays::of(&rays), Cubics::of(&rays.places).unwrap());
             let mut expected = vec![[0.0; 4]; width * height];
             for (y, row) in expected.chunks_exact_mut(width).enumerate() {
                 let start = rays.places.first + rays.places.down * y as f64;
-                dispatch!(Level::new(), simd => at_middles(simd, (&rays, &met), start, row));
+                let of_row = (&cubics, start);
+                dispatch!(Level::new(), simd => leaning::pixels(simd, (&rays, &met), of_row, row));
             }
             assert!(expected.iter().filter(|pixel| pixel[3] > 0.0).count() > 1000, "{steps:?}");
             let both = || made.as_flattened().iter().zip(expected.as_flattened());
             let worst = both().map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
             assert!(worst < 2e-6, "{steps:?} {worst}");
             for (level, high) in levels().into_iter().zip([64, 16, 37, 50]) {
-                let lattice = Upright::of(&rays, &met, height).expect("it stands upright");
+                let lattice = Upright::of((&rays, &met), &cubics, height).unwrap();
                 let mut again = vec![[0.0; 4]; width * height];
                 for (chunk, rows) in again.chunks_mut(width * high).enumerate() {
                     dispatch!(level, simd => lattice.pixels(simd, chunk * high, (width, rows)));
@@ -237,7 +258,8 @@ mod tests {
     fn a_lattice_that_leans_is_not_upright() {
         let mut rays = upright([0.2, 0.5], [60, 90]);
         rays.places.down.x = 1e-6;
-        assert!(Upright::of(&rays, &MetRays::of(&rays), 150).is_none());
+        let (met, cubics) = (MetRays::of(&rays), Cubics::of(&rays.places).unwrap());
+        assert!(Upright::of((&rays, &met), &cubics, 150).is_none());
     }
 
     #[test]
@@ -251,18 +273,19 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_between_rays_is_on_the_cubic_through_them_and_within_its_opacity() {
+    fn a_pixel_between_rays_is_the_mean_of_the_cubic_through_them_and_within_its_opacity() {
         let mut rays = slope(0.25);
         let heights = [0.0, 1.0, 0.0, 0.0];
         for (at, color) in rays.colors.iter_mut().enumerate() {
             *color = [heights[at % 4]; 4];
         }
         let made = pixels(&rays, [40, 8], PixelFilter::Box);
-        // The middle of pixel 4 is 5.125 rays from the first.
-        let t: f32 = 0.125;
-        let weight = |t: f32| Taps::new(Filter::CatmullRom, t).weights[1];
+        // Pixel 4 is 5 to 5.25 rays from the first.
+        let weight = |n: u8| {
+            Taps::new(Filter::CatmullRom, (f32::from(n) + 0.5) / 4.0 / 64.0).weights[1] / 64.0
+        };
         let pixel = made[3 * 40 + 4];
-        assert!((pixel[3] - weight(t)).abs() < 1e-6, "{pixel:?}");
+        assert!((pixel[3] - (0..64).map(weight).sum::<f32>()).abs() < 2e-3, "{pixel:?}");
         for pixel in &made {
             assert!(pixel[..3].iter().all(|c| (0.0..=pixel[3]).contains(c)) && pixel[3] <= 1.0);
         }

@@ -1,5 +1,5 @@
-//! Pixels that are smaller than the distance between rays, where a column of them keeps to one place along the rows of rays: a
-//! volume stands upright in the picture, as it does in every view of a turn about its axis.
+//! Pixels whose columns keep to one place along the rows of rays: a volume stands upright in the picture, as it does in every
+//! view of a turn about its axis.
 //!
 //! All pixels of a column need the same place between the rays of each row. So a row is interpolated once a column, and not
 //! once a pixel; what is left are cubics down the columns, of which four are made side by side.
@@ -8,9 +8,10 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x16, i32x16, u8x64, u32x16};
 
+use super::cubics::{Cubics, Powers};
 use super::lattice_walk::{FRACTION_BITS, LEAST_PART, UNSEEN_BITS, divided, fixed};
+use super::leaning::{EACH, four_of_row};
 use super::met_rays::MetRays;
-use super::middles::{CUBICS, EACH, four_of_row};
 use crate::view::four_colors::fourth;
 use crate::view::voxel_rays::VoxelRays;
 
@@ -18,14 +19,14 @@ use crate::view::voxel_rays::VoxelRays;
 const COLUMNS: usize = 4;
 /// Most rows of pixels that are made together.
 pub(super) const MOST_ROWS: usize = 64;
-/// Rows of rays that these need: a pixel is no larger than the distance between rays, across and down, and three more rays are
-/// around the last place.
-const MOST_RAYS: usize = MOST_ROWS + COLUMNS + 4;
+/// Rows of rays that these need: a pixel is no wider than two of them, across and down, and four are around each place.
+const MOST_RAYS: usize = 2 * (MOST_ROWS + COLUMNS) + 4;
 
 /// The rays of an upright lattice, and where pixels are on it, in fixed point.
 pub(super) struct Upright<'a> {
     rays: &'a VoxelRays,
     met: &'a MetRays,
+    cubics: &'a Cubics,
     /// Along rows of rays: of the first pixel, and from a column to the next.
     across: [i64; 2],
     /// Along columns: of the first pixel, from a column to the next, and from a row to the next.
@@ -42,12 +43,16 @@ struct Places<S: Simd> {
 
 impl<'a> Upright<'a> {
     /// `None` where columns of so many pixels do not keep to one place along the rows.
-    pub fn of(rays: &'a VoxelRays, met: &'a MetRays, height: usize) -> Option<Self> {
+    pub fn of(
+        (rays, met): (&'a VoxelRays, &'a MetRays),
+        cubics: &'a Cubics,
+        height: usize,
+    ) -> Option<Self> {
         let [first, right, down] = [rays.places.first, rays.places.right, rays.places.down];
         let leans = down.x.abs() * height as f64 > f64::from(LEAST_PART);
         let across = [fixed(first.x), fixed(right.x)];
         let down = [fixed(first.y), fixed(right.y), fixed(down.y)];
-        (!leans).then_some(Self { rays, met, across, down })
+        (!leans).then_some(Self { rays, met, cubics, across, down })
     }
 
     /// Makes rows of pixels, `width` each, from row `top` of the picture on; at most [`MOST_ROWS`].
@@ -66,7 +71,8 @@ impl<'a> Upright<'a> {
             let Some(made) = made.get_mut(..(high - low).max(0) as usize) else { continue };
             let met = self.rows_of_rays(simd, left, (low, made));
             if met[0] <= met[1] {
-                let columns = Columns { made, low, met, below };
+                let powers = &self.cubics.down;
+                let columns = Columns { made, low, met, below, powers };
                 columns.pixels(simd, (first, ends), self.met.excess, (left, width, rows));
             }
         }
@@ -84,7 +90,7 @@ impl<'a> Upright<'a> {
         let [none, first, second, third] = [0, 1, 2, 3];
         macro_rules! power {
             ($power:expr) => {
-                f32x4::from_slice(simd, &CUBICS[$power])
+                f32x4::from_slice(simd, &self.cubics.across[$power])
             };
         }
         let each = u8x64::from_slice(simd, &EACH);
@@ -121,6 +127,8 @@ struct Columns<'m> {
     met: [i64; 2],
     /// From a pixel to the next below.
     below: i64,
+    /// What rows of rays count.
+    powers: &'m Powers,
 }
 
 impl Columns<'_> {
@@ -186,9 +194,13 @@ impl Columns<'_> {
             };
         }
         let [before, at, next, beyond] = [row!(0), row!(1), row!(2), row!(3)];
-        let slope = (next - before) * 0.5;
-        let third = (at - next) * 1.5 + (beyond - before) * 0.5;
-        Some([at, slope, (next - at) - slope - third, third])
+        macro_rules! power {
+            ($n:expr) => {{
+                let [a, b, c, d] = self.powers[$n];
+                (before * a + at * b) + (next * c + beyond * d)
+            }};
+        }
+        Some([power!(0), power!(1), power!(2), power!(3)])
     }
 }
 

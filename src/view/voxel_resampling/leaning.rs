@@ -1,18 +1,13 @@
-//! Pixels that are smaller than the distance between rays: each is what lies at its middle.
+//! Pixels one by one: however their lattice leans in the picture, each is made of the sixteen rays around.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
 use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f32x16, u8x16, u8x64};
 use glam::DVec2;
 
+use super::cubics::Cubics;
 use super::lattice_walk::LatticeWalk;
 use super::met_rays::MetRays;
 use crate::view::voxel_rays::VoxelRays;
-
-/// What each of the four rays around a place counts, by the powers of how far it is behind the second: the cubics of Catmull
-/// and Rom (Keys 1981), which pass through the rays. They are the weights of `volume::filter::Taps`, which, made one number
-/// after the other, take as long as all else here.
-pub(super) const CUBICS: [[f32; 4]; 4] =
-    [[0.0, 1.0, 0.0, 0.0], [-0.5, 0.0, 0.5, 0.0], [1.0, -2.5, 2.0, -0.5], [-0.5, 1.5, -1.5, 0.5]];
 
 /// The bytes of number n in all four of block n.
 pub(super) const EACH: [u8; 64] = {
@@ -24,18 +19,18 @@ pub(super) const EACH: [u8; 64] = {
     bytes
 };
 
-/// The pixels of a row, the first at `start`: cubics along both axes.
+/// The pixels of a row, the first at `start`.
 #[inline(always)]
-pub(super) fn at_middles<S: Simd>(
+pub(super) fn pixels<S: Simd>(
     simd: S,
     (rays, met): (&VoxelRays, &MetRays),
-    start: DVec2,
+    (cubics, start): (&Cubics, DVec2),
     row: &mut [[f32; 4]],
 ) {
     const LAST: [u8; 16] = [12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15, 12, 13, 14, 15];
     macro_rules! both_axes {
         ($power:expr) => {
-            f32x8::from_slice(simd, [CUBICS[$power]; 2].as_flattened())
+            f32x8::from_slice(simd, [cubics.across[$power], cubics.down[$power]].as_flattened())
         };
     }
     let [none, first] = [both_axes!(0), both_axes!(1)];
