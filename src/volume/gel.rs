@@ -39,6 +39,26 @@ impl PartialEq for Shown {
 
 impl Product for Gel {}
 
+/// What is known of gel that other light may fall on: what is shown of it, in numbers of a kind.
+pub(crate) struct Known(Shown, TexelKind);
+
+impl Gel {
+    /// What is known of it, where its opacities are.
+    #[must_use]
+    pub(crate) fn known(&self) -> Option<Known> {
+        self.shown.clone().map(|shown| Known(shown, self.lit.kind()))
+    }
+}
+
+impl Known {
+    /// The interesting cells of the same opacities in the same numbers.
+    #[must_use]
+    pub fn interest(&self, opacity: &Bricks<f32>, kind: TexelKind) -> Option<Arc<Interest>> {
+        let Self(shown, known) = self;
+        (*known == kind && shown.opacity == *opacity).then(|| Arc::clone(&shown.interest))
+    }
+}
+
 /// The gel, in the number type that the view's `sampling` states.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(missing_docs, reason = "the variants are the types")]

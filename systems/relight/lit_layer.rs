@@ -1,5 +1,7 @@
 //! A layer of opacities and colours under its lights: `c_T = Σ c_i β_i` (equation 4), made into gel.
 
+use std::sync::Arc;
+
 use fearless_simd::Simd;
 use rayon::prelude::*;
 
@@ -8,7 +10,7 @@ use crate::components::TexelKind;
 use crate::light::lit_bricks::DARK;
 use crate::schedule::Watch;
 use crate::volume::bricks::{BrickPlace, Bricks, EDGE};
-use crate::volume::gel::{BRIGHT, FAINT, Fill, GelBricks, ROW, TEXELS, Texel};
+use crate::volume::gel::{BRIGHT, FAINT, Fill, GelBricks, Known, ROW, TEXELS, Texel};
 use crate::volume::interest::Interest;
 
 /// The interesting voxels of a layer.
@@ -32,11 +34,12 @@ impl<'a> LitLayer<'a> {
         Self { opacity, sent, brightest, watch }
     }
 
-    /// The associated gel: `c_T · α` and α, and its interesting cells. `Auto` is decided by what there is.
+    /// The associated gel: `c_T · α` and α, and its interesting cells, which may be `known`. `Auto` is decided by what there is.
     #[must_use]
-    pub fn gel(&self, kind: TexelKind) -> (GelBricks, Interest) {
+    pub fn gel(&self, kind: TexelKind, known: Option<&Known>) -> (GelBricks, Arc<Interest>) {
         let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
-        let interest = Interest::of(self.opacity, kind);
+        let known = known.and_then(|known| known.interest(self.opacity, kind));
+        let interest = known.unwrap_or_else(|| Arc::new(Interest::of(self.opacity, kind)));
         (self.in_cells(&interest, kind), interest)
     }
 
@@ -158,7 +161,7 @@ mod tests {
         let strength = VoxelStrength { voxels: half, full: 0.5, receding: Receding::NONE };
         let shadowed = vec![(&first, Some(&strength)), (&second, None)];
         let (watch, sent) = (Watch::default(), Sent::Made { base: &base, shadowed });
-        let (gel, _) = LitLayer::new(&opacity, sent, &watch).gel(TexelKind::F32);
+        let (gel, _) = LitLayer::new(&opacity, sent, &watch).gel(TexelKind::F32, None);
         let beta = 32768.0 / 65535.0 * 0.5;
         for (x, y, z) in (0..3400).map(|i| (i % 20, i / 20 % 17, i / 340)) {
             let alpha = alpha([x, y, z]);
@@ -174,7 +177,7 @@ mod tests {
         let base = colors(&opacity, [1.0; 3]);
         let (watch, sent) = (Watch::default(), Sent::Made { base: &base, shadowed: Vec::new() });
         let layer = LitLayer::new(&opacity, sent, &watch);
-        let (GelBricks::F32(gel), _) = layer.gel(TexelKind::F32) else { panic!("as asked for") };
+        let (GelBricks::F32(gel), _) = layer.gel(TexelKind::F32, None) else { panic!("as asked for") };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {

@@ -4,8 +4,6 @@ mod lit_layer;
 mod planned;
 mod sent;
 
-use std::sync::Arc;
-
 use glam::Vec4;
 use hecs::{Entity, World};
 
@@ -20,7 +18,7 @@ use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::Bricks;
-use crate::volume::gel::{Gel, GelBricks, Shown};
+use crate::volume::gel::{Gel, GelBricks, Known, Shown};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
@@ -66,9 +64,10 @@ impl System for Relight {
             // Painted voxels bring their light with them.
             let shaded = !matches!(voxels, Voxels::Painted(..));
             let strengths = if shaded { strengths(world, entity) } else { Vec::new() };
+            let before = world.get::<&Gel>(entity).ok().and_then(|gel| gel.known());
             out.derive(entity, Inputs { voxels, strengths, texel }, |inputs| {
                 watch.check()?;
-                let gel = inputs.relight(watch)?;
+                let gel = inputs.relight(before.as_ref(), watch)?;
                 watch.check()?;
                 Ok(gel)
             })?;
@@ -130,7 +129,8 @@ fn strengths(world: &World, volume: Entity) -> Vec<Option<VoxelStrength>> {
 }
 
 impl Inputs {
-    fn relight(&self, watch: &Watch) -> Result<Gel, Error> {
+    /// The gel; of opacities that are those of `before`, its interesting cells are not looked for again.
+    fn relight(&self, before: Option<&Known>, watch: &Watch) -> Result<Gel, Error> {
         match &self.voxels {
             Voxels::Painted(painted, grid, clip) => {
                 Ok(self.of_paint(&Painting::new(painted, grid, clip.as_ref()), grid.size))
@@ -143,7 +143,7 @@ impl Inputs {
                     opacity,
                     lit,
                     LitBricks::ambient(unlit).map(|lit| Sent::Lit(lit.into())),
-                    watch,
+                    (before, watch),
                 ))
             }
             Voxels::Colored(opacity, colors) => {
@@ -153,7 +153,7 @@ impl Inputs {
                 let shadowed = shadowed.map(|(i, colors)| (colors, strength(i))).collect();
                 let lit = Sent::Made { base: &colors.base, shadowed };
                 let alone = |base| Sent::Made { base, shadowed: Vec::new() };
-                Ok(self.of_layer(opacity, lit, colors.ambient.as_ref().map(alone), watch))
+                Ok(self.of_layer(opacity, lit, colors.ambient.as_ref().map(alone), (before, watch)))
             }
         }
     }
@@ -188,13 +188,13 @@ impl Inputs {
         opacity: &'a Bricks<f32>,
         lit: Sent<'a>,
         ambient: Option<Sent<'a>>,
-        watch: &'a Watch,
+        (before, watch): (Option<&Known>, &'a Watch),
     ) -> Gel {
-        let (lit, interest) = LitLayer::new(opacity, lit, watch).gel(self.texel);
+        let (lit, interest) = LitLayer::new(opacity, lit, watch).gel(self.texel, before);
         // Both parts in the same numbers.
         let alone = |sent| LitLayer::new(opacity, sent, watch).in_cells(&interest, lit.kind());
         let ambient = ambient.map(alone);
-        let shown = Shown { opacity: opacity.clone(), interest: Arc::new(interest) };
+        let shown = Shown { opacity: opacity.clone(), interest };
         Gel { lit, ambient, shown: Some(shown) }
     }
 }
