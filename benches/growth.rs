@@ -170,7 +170,7 @@ fn planned(renderer: &Renderer, world: &World) -> [f64; 2] {
     })
 }
 
-/// How many bricks there are, how many of them are classified, and how many hold something.
+/// How many bricks there are, how many of them may show something by their ranges, and how many are kept.
 fn looked_at(world: &mut World) -> String {
     let mut volumes = world.query_mut::<(&Grid, &Ranges, &Classify, &Opacity)>().into_iter();
     let (grid, ranges, classify, opacity) = volumes.next().expect("a volume was prepared");
@@ -185,7 +185,7 @@ fn looked_at(world: &mut World) -> String {
     };
     let bricks: usize = counts.iter().product();
     let classified = (0..bricks).filter(may_show).count();
-    format!("{bricks} bricks, {classified} classified, {} stored", opacity.voxels.stored().count())
+    format!("{bricks} bricks, {classified} may show, {} stored", opacity.voxels.stored().count())
 }
 
 /// From an edit to the picture of it, in one world.

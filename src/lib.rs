@@ -74,7 +74,7 @@
 //! |---|---|---|
 //! | `scene`, `formats` | [`grid::Scalars`] in the file's own number type, [`grid::Grid`] | a file, or a [`phantom`] made by formula |
 //! | `ranges` | between which scalars each brick lies, once a volume | [`ranges`] |
-//! | `classify` | α_V, in [`bricks`] stored only where something is interesting; no others are looked at that [`ranges`] rules out | [`gradients`], [`classification`], [`clipping`] |
+//! | `classify` | α_V, in [`bricks`] stored only where something is interesting; no others are looked at that [`ranges`] rules out, nor those [`buried`](volume) in what is opaque | [`gradients`], [`classification`], [`clipping`] |
 //! | `shade` | c_i, one for each shadowed light and one for all others, where polygons are matted with them | [`gradients`] again, [`shading`] |
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; c_C, α_C (§3, figure 4) | [`coverage`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |

@@ -7,6 +7,7 @@ use super::coverage::{Flat, REACH};
 use super::face::Faces;
 use crate::components::{Classify, Clip, Surface, TexelKind, Voxelize};
 use crate::schedule::Watch;
+use crate::view::observer;
 use crate::volume::bricks::{self, BrickPlace};
 use crate::volume::gel::{self, FAINT};
 use crate::volume::grid::{Painted, Scalars};
@@ -151,14 +152,11 @@ fn classified(world: &World, volume: &SceneVolume) -> Option<(Vec<bool>, Looked)
     let mut found = world.query_one::<Stated<'_>>(volume.entity);
     let (scalars, classify, clip, tint, made) = found.get().ok()?;
     let size = volume.size();
-    let [nx, ny, nz] = bricks::counts(size);
+    let [nx, ny, _] = bricks::counts(size);
     let place = |at: usize| BrickPlace::new([at % nx, at / nx % ny, at / (nx * ny)], size);
     let ranges = made.cloned().unwrap_or_else(|| Ranges::of(scalars, size, &Watch::default()));
     let opacities = Opacities::new((scalars, &volume.grid), (classify, volume.unit), clip, tint);
-    let held: Vec<bool> = (0..nx * ny * nz)
-        .into_par_iter()
-        .map(|at| opacities.may_hold(&ranges, place(at)))
-        .collect();
+    let held = opacities.held(&ranges, observer::stays_outside(world, &volume.grid));
     let may: Vec<usize> = (0..held.len()).filter(|at| held[*at]).collect();
     let looked: Vec<(bool, bool)> = may
         .par_iter()

@@ -3,9 +3,11 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{DepthCue, Order, Sampling, View};
+use crate::components::{DepthCue, Order, Sampling, Skip, View};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
+use crate::volume::buried::WIDEST;
+use crate::volume::grid::Grid;
 
 /// Where an observer is taken to stand who makes no difference: in front, as at azimuth 0 and elevation 0.
 pub(crate) const ANYWHERE: DVec3 = DVec3::NEG_Y;
@@ -37,6 +39,18 @@ pub fn sampling(world: &World) -> Sampling {
 #[must_use]
 pub(crate) fn is_cued(world: &World) -> bool {
     first_view(world).is_some_and(|entity| world.get::<&DepthCue>(entity).is_ok())
+}
+
+/// Whether what is [`buried`](crate::volume::buried) in a volume may be left out: empty space is skipped, rays begin outside,
+/// for they are parallel, and their samples are close enough.
+#[must_use]
+pub(crate) fn stays_outside(world: &World, grid: &Grid) -> bool {
+    let sampling = sampling(world);
+    let apart = WIDEST * grid.spacing().min_element();
+    let is_close = sampling.distance_mm.is_none_or(|distance| distance <= apart);
+    let mut views = world.query::<&View>();
+    let is_parallel = views.iter().all(|view| view.field_of_view.is_none());
+    sampling.skip == Skip::Pyramid && is_close && is_parallel
 }
 
 #[cfg(test)]

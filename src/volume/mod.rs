@@ -2,6 +2,7 @@
 
 pub mod arrays;
 pub mod bricks;
+pub(crate) mod buried;
 mod cells;
 pub mod classification;
 pub mod clipping;

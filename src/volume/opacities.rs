@@ -1,9 +1,11 @@
 //! The opacities of a volume's voxels, brick by brick: classified, weakened where a clip cuts, and masked by labels.
 
 use fearless_simd::{Level, dispatch};
+use rayon::prelude::*;
 
 use crate::components::{Classify, Clip, Material};
-use crate::volume::bricks::{BrickPlace, EDGE, VOXELS};
+use crate::volume::bricks::{self, BrickPlace, EDGE, VOXELS};
+use crate::volume::buried::buried;
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::{Cut, Left};
 use crate::volume::gradients::Gradients;
@@ -45,9 +47,32 @@ impl<'a> Opacities<'a> {
         Self { scalars, grid, classifier, gradients, cut, tint, level }
     }
 
-    /// Whether any of a brick may be seen, by the ranges of its scalars and by the cut. Where this is denied, all is clear.
+    /// For each brick, x fastest, whether any of it may be seen, by the ranges of its scalars, by the cut, and by what it is
+    /// [`buried`] in, where the observer `stays_outside`. Where this is denied, all is clear, or nothing comes to it.
     #[must_use]
-    pub fn may_hold(&self, ranges: &Ranges, place: BrickPlace) -> bool {
+    pub fn held(&self, ranges: &Ranges, stays_outside: bool) -> Vec<bool> {
+        let (size, counts) = (self.grid.size, bricks::counts(self.grid.size));
+        let [nx, ny, nz] = counts;
+        let place = |at: usize| BrickPlace::new([at % nx, at / nx % ny, at / (nx * ny)], size);
+        let all = || (0..nx * ny * nz).into_par_iter();
+        let mut held: Vec<bool> = all().map(|at| self.may_hold(ranges, place(at))).collect();
+        let is_masked = self.tint.is_some_and(|tint| tint.factors.is_some());
+        if stays_outside && self.cut.is_none() && !is_masked && ranges.nan_voxels() == 0 {
+            let opaque: Vec<bool> = all().map(|at| self.is_opaque(ranges, place(at))).collect();
+            let buried = buried(counts, &opaque);
+            held.iter_mut().zip(buried).for_each(|(held, buried)| *held &= !buried);
+        }
+        held
+    }
+
+    /// Whether a whole brick is of voxels of opacity 1, before it is cut or masked.
+    fn is_opaque(&self, ranges: &Ranges, place: BrickPlace) -> bool {
+        let (range, steepest) = (ranges.around(place.brick), self.steepest(ranges, place));
+        place.extent == [EDGE; 3] && self.classifier.is_opaque(range, steepest)
+    }
+
+    /// Whether any of a brick may be seen, by the ranges of its scalars and by the cut. Where this is denied, all is clear.
+    fn may_hold(&self, ranges: &Ranges, place: BrickPlace) -> bool {
         let range = ranges.around(place.brick);
         self.classifier.may_show(range, self.steepest(ranges, place))
             && self.left(place) != Left::Nothing

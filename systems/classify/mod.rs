@@ -6,7 +6,8 @@ use crate::components::{self, Clip, OpacityUnit};
 use crate::error::Error;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
-use crate::volume::bricks::{BrickPlace, Bricks};
+use crate::view::observer;
+use crate::volume::bricks::{self, BrickPlace, Bricks};
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::Opacity;
@@ -26,6 +27,8 @@ struct Inputs {
     unit: OpacityUnit,
     clip: Option<Clip>,
     tint: Option<Tint>,
+    /// Whether what no ray comes to is left out.
+    unburied: bool,
 }
 
 impl System for ClassifyVoxels {
@@ -60,6 +63,7 @@ impl System for ClassifyVoxels {
                 unit: *unit,
                 clip: clip.cloned(),
                 tint: tint.cloned(),
+                unburied: observer::stays_outside(world, grid),
             };
             out.derive(entity, inputs, |inputs| {
                 let opacity = inputs.classify(watch);
@@ -85,10 +89,15 @@ impl System for ClassifyVoxels {
 
 impl Inputs {
     fn classify(&self, watch: &Watch) -> Opacity {
-        let Self { scalars, ranges, grid, classify, unit, clip, tint } = self;
+        let Self { scalars, ranges, grid, classify, unit, clip, tint, unburied } = self;
         let opacities =
             Opacities::new((scalars, grid), (classify, unit.0), clip.as_ref(), tint.as_ref());
-        let may_hold = |place: BrickPlace| opacities.may_hold(ranges, place);
+        let held = opacities.held(ranges, *unburied);
+        let [nx, ny, _] = bricks::counts(grid.size);
+        let may_hold = |place: BrickPlace| {
+            let [x, y, z] = place.brick;
+            held[(z * ny + y) * nx + x]
+        };
         let voxels = Bricks::make_where(grid.size, may_hold, |place, brick| {
             watch.check().is_ok() && opacities.fill(ranges, place, brick)
         });

@@ -177,7 +177,9 @@ mod tests {
         let base = colors(&opacity, [1.0; 3]);
         let (watch, sent) = (Watch::default(), Sent::Made { base: &base, shadowed: Vec::new() });
         let layer = LitLayer::new(&opacity, sent, &watch);
-        let (GelBricks::F32(gel), _) = layer.gel(TexelKind::F32, None) else { panic!("as asked for") };
+        let (GelBricks::F32(gel), _) = layer.gel(TexelKind::F32, None) else {
+            panic!("as asked for")
+        };
         let mut held = 0;
         for brick in (0..18).map(|i| [i % 3, i / 3 % 3, i / 9]) {
             let expected = (0..729).map(|i| [i % 9, i / 9 % 9, i / 81]).any(|step| {

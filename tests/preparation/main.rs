@@ -1,5 +1,6 @@
 //! Preparation, from scalars to gel and pyramid: what the stages make together, and what they need not make again.
 
+mod buried;
 mod extremes;
 mod sparse;
 mod stages;

@@ -140,6 +140,15 @@ impl Contours {
         }
     }
 
+    /// Whether α is 1 at all scalars from `low` on, at gradients no longer than `steepest`.
+    pub fn are_opaque(&self, low: f64, steepest: f64) -> bool {
+        self.0.iter().any(|line| {
+            let inside = low - line.value;
+            let is_solid = line.form == Form::Above && line.opacity >= 1.0;
+            is_solid && inside > 0.0 && inside * inside >= line.squared_reach * steepest * steepest
+        })
+    }
+
     /// The mean of the contours' colours, each weighted by its opacity; `None` where there is none.
     pub fn color(&self, f: f64, gradient: [f32; 3]) -> Option<DVec3> {
         let gg = square(gradient);

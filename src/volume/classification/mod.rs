@@ -96,6 +96,19 @@ impl Classifier {
         self.show(&[range.low], &[range.high], &[steepest]) == [1]
     }
 
+    /// Whether every voxel surely has an opacity of 1 whose scalar lies in `range` and whose gradient is no longer than
+    /// `steepest`, world units: of contours of what is above, and of transfer functions without a factor of the gradient.
+    #[must_use]
+    pub(crate) fn is_opaque(&self, range: Range, steepest: f64) -> bool {
+        let [low, high] = [range.low, range.high].map(f64::from);
+        low <= high
+            && match &self.how {
+                How::Contours(contours) => contours.are_opaque(low, steepest),
+                How::Transfer(transfer) => transfer.is_opaque([low, high]),
+                How::Regions(_) | How::Mixture(_) => false,
+            }
+    }
+
     /// [`may_show`](Self::may_show) of several ranges at once, from `low` to `high` each: 1 for those, else 0.
     #[must_use]
     #[inline]

@@ -94,6 +94,15 @@ impl Transfer {
         self.color.value(f)
     }
 
+    /// Whether α is 1 at all scalars from `low` to `high`.
+    pub fn is_opaque(&self, [low, high]: [f64; 2]) -> bool {
+        let between = self.opacity.points().iter().filter(|(at, _)| (low..=high).contains(at));
+        let ends = [low, high].map(|end| self.opacity.value(end).unwrap_or(0.0));
+        let mut all = between.map(|(_, alpha)| *alpha).chain(ends);
+        // A straight line between ones may be rounded.
+        self.factor.is_none() && low <= high && all.all(|alpha| alpha > 1.0 - 1e-12)
+    }
+
     /// The values outside of which the opacity is surely 0.
     pub fn range(&self) -> [f64; 2] {
         self.opacity.support()

@@ -91,7 +91,8 @@ impl<'a> Order<'a> {
             let v = self.begun - 1;
             let v = if v_ahead { self.low[1] + v } else { self.high[1] - v };
             while self.bricks != 0 {
-                let behind = if u_ahead { self.bricks.trailing_zeros() } else { self.bricks.ilog2() };
+                let behind =
+                    if u_ahead { self.bricks.trailing_zeros() } else { self.bricks.ilog2() };
                 self.bricks &= !(1 << behind);
                 let u = self.low[0] + i64::from(behind);
                 let columns = self.reached(0, u);
