@@ -3,7 +3,7 @@
 use glam::DVec3;
 use hecs::{Entity, World};
 
-use crate::components::{DepthCue, Order, Sampling, Skip, View};
+use crate::components::{DepthCue, Matte, Order, Sampling, Skip, View, Voxelize};
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::volume::buried::WIDEST;
@@ -42,7 +42,7 @@ pub(crate) fn is_cued(world: &World) -> bool {
 }
 
 /// Whether what is [`buried`](crate::volume::buried) in a volume may be left out: empty space is skipped, rays begin outside,
-/// for they are parallel, and their samples are close enough.
+/// for they are parallel, their samples are close enough, and no polygon is matted so that it takes the volume away around it.
 #[must_use]
 pub(crate) fn stays_outside(world: &World, grid: &Grid) -> bool {
     let sampling = sampling(world);
@@ -50,7 +50,9 @@ pub(crate) fn stays_outside(world: &World, grid: &Grid) -> bool {
     let is_close = sampling.distance_mm.is_none_or(|distance| distance <= apart);
     let mut views = world.query::<&View>();
     let is_parallel = views.iter().all(|view| view.field_of_view.is_none());
-    sampling.skip == Skip::Pyramid && is_close && is_parallel
+    let mut polygons = world.query::<&Voxelize>();
+    let cuts = polygons.iter().any(|polygon| matches!(polygon.matte, Matte::In | Matte::Out));
+    sampling.skip == Skip::Pyramid && is_close && is_parallel && !cuts
 }
 
 #[cfg(test)]

@@ -2,12 +2,13 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{self, Clip, OpacityUnit};
+use crate::components::{self, Clip, Material, OpacityUnit};
 use crate::error::Error;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::{self, BrickPlace, Bricks};
+use crate::volume::classification::Classifier;
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::Opacity;
@@ -63,7 +64,7 @@ impl System for ClassifyVoxels {
                 unit: *unit,
                 clip: clip.cloned(),
                 tint: tint.cloned(),
-                unburied: observer::stays_outside(world, grid),
+                unburied: may_be_opaque(classify, *unit) && observer::stays_outside(world, grid),
             };
             out.derive(entity, inputs, |inputs| {
                 let opacity = inputs.classify(watch);
@@ -85,6 +86,11 @@ impl System for ClassifyVoxels {
         let most = |held: &MayHold| held.bytes::<f32>();
         Plan::of(&held, most, MayHold::seen, "`classify` states which scalars are seen")
     }
+}
+
+/// Whether a classification may bury anything; where it does not, no view asks for other opacities.
+fn may_be_opaque(classify: &components::Classify, unit: OpacityUnit) -> bool {
+    Classifier::new(classify, &Material::default(), unit.0).may_be_opaque()
 }
 
 impl Inputs {

@@ -9,20 +9,18 @@ use super::*;
 /// The picture of a ball in a shadow's light, bit for bit, and how many of its bricks were classified and kept.
 fn seen(
     classify: &Classify,
-    clip: Option<Clip>,
+    add: impl Fn(&mut World, Entity),
     change: impl Fn(&mut View, &mut Sampling),
 ) -> (Vec<[u32; 4]>, usize) {
-    let grid = Grid::axis_aligned([76, 70, 73], [1.0, 1.0, 1.25], [-37.0, -35.0, -45.0]).unwrap();
+    let grid = Grid::axis_aligned([100, 96, 82], [1.0, 1.0, 1.25], [-49.0, -47.0, -50.0]).unwrap();
     let mut world = World::new();
     let ball = spawn_volume(
         &mut world,
         grid,
-        sampled(&grid, |p| 32.0 - p.length() as f32),
+        sampled(&grid, |p| (44.0 - p.length() as f32).min(5.0)),
         classify.clone(),
     );
-    if let Some(clip) = clip {
-        world.insert_one(ball, clip).unwrap();
-    }
+    add(&mut world, ball);
     let light = spawn_light(&mut world, 1, Toward::Direction([0.3, -0.8, 0.5]));
     world.insert_one(light, CastsShadow::default()).unwrap();
     let (mut view, mut sampling) =
@@ -58,8 +56,8 @@ fn a_ball_is_seen_alike_where_its_inside_is_not_made() {
                     sampling.stop_at = stop_at.unwrap_or(sampling.stop_at);
                 }
             };
-            let (picture, kept) = seen(&classify, None, change(Skip::Pyramid));
-            let (whole, all) = seen(&classify, None, change(Skip::None));
+            let (picture, kept) = seen(&classify, |_, _| (), change(Skip::Pyramid));
+            let (whole, all) = seen(&classify, |_, _| (), change(Skip::None));
             assert!(picture == whole, "{distance:?} {stop_at:?}");
             assert!(kept + 8 <= all, "{kept} of {all}");
         }
@@ -68,15 +66,25 @@ fn a_ball_is_seen_alike_where_its_inside_is_not_made() {
 
 #[test]
 fn all_is_made_where_a_ray_may_come_to_it() {
-    let kept =
-        |classify: &Classify, clip: Option<Clip>, change: &dyn Fn(&mut View, &mut Sampling)| {
-            seen(classify, clip, change).1
+    let kept = |opacity: f32,
+                add: &dyn Fn(&mut World, Entity),
+                change: &dyn Fn(&mut View, &mut Sampling)| {
+        seen(&above(0.0, opacity), add, change).1
+    };
+    let all = kept(1.0, &|_, _| (), &|_, sampling| sampling.skip = Skip::None);
+    let cut = |world: &mut World, ball: Entity| {
+        let planes = vec![[0.0, 0.0, 1.0, 100.0]];
+        world.insert_one(ball, Clip { planes, ..Clip::default() }).unwrap();
+    };
+    assert_eq!(kept(1.0, &cut, &|_, _| ()), all);
+    for matte in [Matte::In, Matte::Out] {
+        let matted = |world: &mut World, _: Entity| {
+            spawn_far(world, matte);
         };
-    let all = kept(&above(0.0, 1.0), None, &|_, sampling| sampling.skip = Skip::None);
-    let cut = Clip { planes: vec![[0.0, 0.0, 1.0, 100.0]], ..Clip::default() };
-    assert_eq!(kept(&above(0.0, 1.0), Some(cut), &|_, _| ()), all);
-    assert_eq!(kept(&above(0.0, 0.99), None, &|_, _| ()), all);
-    assert_eq!(kept(&above(0.0, 1.0), None, &|view, _| view.field_of_view = Some(30.0)), all);
+        assert_eq!(kept(1.0, &matted, &|_, _| ()), all);
+    }
+    assert_eq!(kept(0.99, &|_, _| (), &|_, _| ()), all);
+    assert_eq!(kept(1.0, &|_, _| (), &|view, _| view.field_of_view = Some(30.0)), all);
     let far = |_: &mut View, sampling: &mut Sampling| sampling.distance_mm = Some(2.5);
-    assert_eq!(kept(&above(0.0, 1.0), None, &far), all);
+    assert_eq!(kept(1.0, &|_, _| (), &far), all);
 }

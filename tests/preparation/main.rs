@@ -76,9 +76,13 @@ fn spawn_view(world: &mut World, grid: &Grid) -> Entity {
 
 /// A polygon that is scan-converted, far from everything: colors of voxels are kept for those that it might be matted with.
 fn keep_colors(world: &mut World) -> Entity {
+    spawn_far(world, Matte::Over)
+}
+
+fn spawn_far(world: &mut World, matte: Matte) -> Entity {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 1e4));
     let faces = Faces(vec![Face::new(vec![corners.to_vec()]).unwrap()].into());
-    let voxelize = Voxelize { matte: Matte::Over, calibrated: true };
+    let voxelize = Voxelize { matte, calibrated: true };
     world.spawn((Name("far".into()), Order(8), faces, Surface::default(), voxelize))
 }
 

@@ -31,6 +31,11 @@ impl Line {
         self.squared_reach == 0.0
     }
 
+    /// Whether it is of all that is above it, and opaque there.
+    fn is_solid(&self) -> bool {
+        self.form == Form::Above && self.opacity >= 1.0
+    }
+
     /// α of this contour alone at scalar `f` and squared gradient `gg`; 0 for a NaN.
     #[inline]
     fn opacity(&self, f: f64, gg: f64) -> f64 {
@@ -142,11 +147,15 @@ impl Contours {
 
     /// Whether α is 1 at all scalars from `low` on, at gradients no longer than `steepest`.
     pub fn are_opaque(&self, low: f64, steepest: f64) -> bool {
-        self.0.iter().any(|line| {
+        self.0.iter().filter(|line| line.is_solid()).any(|line| {
             let inside = low - line.value;
-            let is_solid = line.form == Form::Above && line.opacity >= 1.0;
-            is_solid && inside > 0.0 && inside * inside >= line.squared_reach * steepest * steepest
+            inside > 0.0 && inside * inside >= line.squared_reach * steepest * steepest
         })
+    }
+
+    /// Whether α is 1 anywhere that [`are_opaque`](Self::are_opaque) knows of.
+    pub fn may_be_opaque(&self) -> bool {
+        self.0.iter().any(Line::is_solid)
     }
 
     /// The mean of the contours' colours, each weighted by its opacity; `None` where there is none.

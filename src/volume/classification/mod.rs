@@ -109,6 +109,16 @@ impl Classifier {
             }
     }
 
+    /// Whether [`is_opaque`](Self::is_opaque) says so of any range.
+    #[must_use]
+    pub(crate) fn may_be_opaque(&self) -> bool {
+        match &self.how {
+            How::Contours(contours) => contours.may_be_opaque(),
+            How::Transfer(transfer) => transfer.may_be_opaque(),
+            How::Regions(_) | How::Mixture(_) => false,
+        }
+    }
+
     /// [`may_show`](Self::may_show) of several ranges at once, from `low` to `high` each: 1 for those, else 0.
     #[must_use]
     #[inline]

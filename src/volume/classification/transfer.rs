@@ -103,6 +103,11 @@ impl Transfer {
         self.factor.is_none() && low <= high && all.all(|alpha| alpha > 1.0 - 1e-12)
     }
 
+    /// Whether α is 1 anywhere that [`is_opaque`](Self::is_opaque) knows of.
+    pub fn may_be_opaque(&self) -> bool {
+        self.factor.is_none() && self.opacity.points().iter().any(|(_, alpha)| *alpha >= 1.0)
+    }
+
     /// The values outside of which the opacity is surely 0.
     pub fn range(&self) -> [f64; 2] {
         self.opacity.support()
