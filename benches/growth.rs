@@ -184,8 +184,8 @@ fn looked_at(world: &mut World) -> String {
             .may_show(range, gradients.at_most(range.spread, brick.map(|b| b * EDGE), [EDGE; 3]))
     };
     let bricks: usize = counts.iter().product();
-    let classified = (0..bricks).filter(may_show).count();
-    format!("{bricks} bricks, {classified} may show, {} stored", opacity.voxels.stored().count())
+    let showing = (0..bricks).filter(may_show).count();
+    format!("{bricks} bricks, {showing} may show, {} stored", opacity.voxels.stored().count())
 }
 
 /// From an edit to the picture of it, in one world.

@@ -29,16 +29,17 @@ pub(super) fn read(
     }
     let (mut textures, mut numbers, mut failures) = (Vec::new(), Vec::new(), Vec::new());
     for picture in &triangles.pictures {
-        numbers.push(textures.len() as u32);
         match texture(loading, picture)? {
-            Ok(texture) => textures.push(texture),
+            Ok(texture) => {
+                numbers.push(textures.len() as u32);
+                textures.push(texture);
+            }
             Err(problem) => {
+                numbers.push(u32::MAX);
                 failures.push(format!(
                     "is shown without its picture `{}`, which {problem}",
                     picture.name
                 ));
-                numbers.pop();
-                numbers.push(u32::MAX);
             }
         }
     }

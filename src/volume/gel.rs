@@ -39,23 +39,12 @@ impl PartialEq for Shown {
 
 impl Product for Gel {}
 
-/// What is known of gel that other light may fall on: what is shown of it, in numbers of a kind.
-pub(crate) struct Known(Shown, TexelKind);
-
 impl Gel {
-    /// What is known of it, where its opacities are.
+    /// Its interesting cells, if it is of these opacities in numbers of that kind: other light on the same has no others.
     #[must_use]
-    pub(crate) fn known(&self) -> Option<Known> {
-        self.shown.clone().map(|shown| Known(shown, self.lit.kind()))
-    }
-}
-
-impl Known {
-    /// The interesting cells of the same opacities in the same numbers.
-    #[must_use]
-    pub fn interest(&self, opacity: &Bricks<f32>, kind: TexelKind) -> Option<Arc<Interest>> {
-        let Self(shown, known) = self;
-        (*known == kind && shown.opacity == *opacity).then(|| Arc::clone(&shown.interest))
+    pub(crate) fn interest(&self, of: &Bricks<f32>, kind: TexelKind) -> Option<Arc<Interest>> {
+        let shown = self.shown.as_ref().filter(|shown| shown.opacity == *of)?;
+        (self.lit.kind() == kind).then(|| Arc::clone(&shown.interest))
     }
 }
 

@@ -56,13 +56,20 @@ impl<'a> Opacities<'a> {
         let place = |at: usize| BrickPlace::new([at % nx, at / nx % ny, at / (nx * ny)], size);
         let all = || (0..nx * ny * nz).into_par_iter();
         let mut held: Vec<bool> = all().map(|at| self.may_hold(ranges, place(at))).collect();
-        let is_masked = self.tint.is_some_and(|tint| tint.factors.is_some());
-        if stays_outside && self.cut.is_none() && !is_masked && ranges.nan_voxels() == 0 {
+        if stays_outside && self.may_bury(ranges) {
             let opaque: Vec<bool> = all().map(|at| self.is_opaque(ranges, place(at))).collect();
             let buried = buried(counts, &opaque);
             held.iter_mut().zip(buried).for_each(|(held, buried)| *held &= !buried);
         }
         held
+    }
+
+    /// Whether anything may be buried: something is opaque, and nothing is cut away, masked or a NaN.
+    #[must_use]
+    pub fn may_bury(&self, ranges: &Ranges) -> bool {
+        let is_masked = self.tint.is_some_and(|tint| tint.factors.is_some());
+        let is_whole = self.cut.is_none() && !is_masked && ranges.nan_voxels() == 0;
+        is_whole && self.classifier.may_be_opaque()
     }
 
     /// Whether a whole brick is of voxels of opacity 1, before it is cut or masked.

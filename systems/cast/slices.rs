@@ -136,9 +136,7 @@ impl<T: Texel> Sought<'_, T> {
         let [u, v, w] = self.shear.axes;
         let counts = texels.counts();
         Occupied::of([u, v, w].map(|axis| counts[axis]), |at| {
-            let mut brick = [0; 3];
-            (brick[u], brick[v], brick[w]) = (at[0], at[1], at[2]);
-            cells::sampled(pyramid, texels.stored_at(brick)).is_some()
+            cells::sampled(pyramid, texels.stored_at(self.shear.xyz(at))).is_some()
         })
     }
 

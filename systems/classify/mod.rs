@@ -2,13 +2,12 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{self, Clip, Material, OpacityUnit};
+use crate::components::{self, Clip, OpacityUnit};
 use crate::error::Error;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::{self, BrickPlace, Bricks};
-use crate::volume::classification::Classifier;
 use crate::volume::grid::{Grid, Scalars};
 use crate::volume::labels::Tint;
 use crate::volume::layer::Opacity;
@@ -28,7 +27,7 @@ struct Inputs {
     unit: OpacityUnit,
     clip: Option<Clip>,
     tint: Option<Tint>,
-    /// Whether what no ray comes to is left out.
+    /// Whether what no ray comes to is left out, if there can be any.
     unburied: bool,
 }
 
@@ -56,6 +55,8 @@ impl System for ClassifyVoxels {
             if !asked.contains(&entity) {
                 continue;
             }
+            let made = Opacities::new((scalars, grid), (classify, unit.0), clip, tint);
+            let unburied = made.may_bury(ranges) && observer::stays_outside(world, grid);
             let inputs = Inputs {
                 scalars: scalars.clone(),
                 ranges: ranges.clone(),
@@ -64,7 +65,7 @@ impl System for ClassifyVoxels {
                 unit: *unit,
                 clip: clip.cloned(),
                 tint: tint.cloned(),
-                unburied: may_be_opaque(classify, *unit) && observer::stays_outside(world, grid),
+                unburied,
             };
             out.derive(entity, inputs, |inputs| {
                 let opacity = inputs.classify(watch);
@@ -86,11 +87,6 @@ impl System for ClassifyVoxels {
         let most = |held: &MayHold| held.bytes::<f32>();
         Plan::of(&held, most, MayHold::seen, "`classify` states which scalars are seen")
     }
-}
-
-/// Whether a classification may bury anything; where it does not, no view asks for other opacities.
-fn may_be_opaque(classify: &components::Classify, unit: OpacityUnit) -> bool {
-    Classifier::new(classify, &Material::default(), unit.0).may_be_opaque()
 }
 
 impl Inputs {

@@ -10,7 +10,7 @@ use crate::components::TexelKind;
 use crate::light::lit_bricks::DARK;
 use crate::schedule::Watch;
 use crate::volume::bricks::{BrickPlace, Bricks, EDGE};
-use crate::volume::gel::{BRIGHT, FAINT, Fill, GelBricks, Known, ROW, TEXELS, Texel};
+use crate::volume::gel::{BRIGHT, FAINT, Fill, Gel, GelBricks, ROW, TEXELS, Texel};
 use crate::volume::interest::Interest;
 
 /// The interesting voxels of a layer.
@@ -34,11 +34,11 @@ impl<'a> LitLayer<'a> {
         Self { opacity, sent, brightest, watch }
     }
 
-    /// The associated gel: `c_T · α` and α, and its interesting cells, which may be `known`. `Auto` is decided by what there is.
+    /// The associated gel: `c_T · α` and α, and its interesting cells, which are those `before` if these are of the same opacities. `Auto` is decided by what there is.
     #[must_use]
-    pub fn gel(&self, kind: TexelKind, known: Option<&Known>) -> (GelBricks, Arc<Interest>) {
+    pub fn gel(&self, kind: TexelKind, before: Option<&Gel>) -> (GelBricks, Arc<Interest>) {
         let kind = if kind == TexelKind::Auto { self.suited() } else { kind };
-        let known = known.and_then(|known| known.interest(self.opacity, kind));
+        let known = before.and_then(|gel| gel.interest(self.opacity, kind));
         let interest = known.unwrap_or_else(|| Arc::new(Interest::of(self.opacity, kind)));
         (self.in_cells(&interest, kind), interest)
     }

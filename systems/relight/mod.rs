@@ -18,7 +18,7 @@ use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System, Watch};
 use crate::view::observer;
 use crate::volume::bricks::Bricks;
-use crate::volume::gel::{Gel, GelBricks, Known, Shown};
+use crate::volume::gel::{Gel, GelBricks, Shown};
 use crate::volume::grid::{Grid, Painted};
 use crate::volume::layer::{Composite, LitColors, Opacity};
 use crate::volume::painting::Painting;
@@ -64,10 +64,10 @@ impl System for Relight {
             // Painted voxels bring their light with them.
             let shaded = !matches!(voxels, Voxels::Painted(..));
             let strengths = if shaded { strengths(world, entity) } else { Vec::new() };
-            let before = world.get::<&Gel>(entity).ok().and_then(|gel| gel.known());
+            let before = world.get::<&Gel>(entity).ok();
             out.derive(entity, Inputs { voxels, strengths, texel }, |inputs| {
                 watch.check()?;
-                let gel = inputs.relight(before.as_ref(), watch)?;
+                let gel = inputs.relight(before.as_deref(), watch)?;
                 watch.check()?;
                 Ok(gel)
             })?;
@@ -130,7 +130,7 @@ fn strengths(world: &World, volume: Entity) -> Vec<Option<VoxelStrength>> {
 
 impl Inputs {
     /// The gel; of opacities that are those of `before`, its interesting cells are not looked for again.
-    fn relight(&self, before: Option<&Known>, watch: &Watch) -> Result<Gel, Error> {
+    fn relight(&self, before: Option<&Gel>, watch: &Watch) -> Result<Gel, Error> {
         match &self.voxels {
             Voxels::Painted(painted, grid, clip) => {
                 Ok(self.of_paint(&Painting::new(painted, grid, clip.as_ref()), grid.size))
@@ -188,7 +188,7 @@ impl Inputs {
         opacity: &'a Bricks<f32>,
         lit: Sent<'a>,
         ambient: Option<Sent<'a>>,
-        (before, watch): (Option<&Known>, &'a Watch),
+        (before, watch): (Option<&Gel>, &'a Watch),
     ) -> Gel {
         let (lit, interest) = LitLayer::new(opacity, lit, watch).gel(self.texel, before);
         // Both parts in the same numbers.

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::format::{Opened, PictureFormat};
-use super::weight::PIXEL;
 use super::{LONGEST_FILE, Weight, format_of, jpeg, png, webp};
 use crate::view::picture::Picture;
 
@@ -33,10 +32,8 @@ pub(crate) fn weighed_held(
         .fill_buf()
         .map_err(|error| format!("cannot be read ({error}); check its permissions"))?;
     let size = format_held(start, name)?.size.ok_or("states no size; save it as PNG or JPEG")?;
-    let ([width, height], a_pixel) = size(stored)?;
-    let pixels = width as u64 * height as u64;
-    let passing = length.saturating_add(pixels * a_pixel);
-    Ok(([width, height], Weight { kept: pixels * PIXEL, passing }))
+    let (size, a_pixel) = size(stored)?;
+    Ok((size, Weight::of(size, a_pixel, length)))
 }
 
 /// Reads a picture as linear associated RGBA; where it is to be `opaque`, its alpha is no opacity and hides no color.

@@ -8,7 +8,7 @@ use super::{checked_length, format_of, unknown, unreadable};
 use crate::error::Error;
 
 /// Bytes of a pixel in memory: four floats.
-pub(super) const PIXEL: u64 = 16;
+const PIXEL: u64 = 16;
 
 /// Bytes that a picture takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +20,12 @@ pub struct Weight {
 }
 
 impl Weight {
+    /// Of a picture of so many pixels across and down, in a file of `length` bytes, that is decoded by way of `a_pixel` bytes for each.
+    pub(super) fn of([width, height]: [usize; 2], a_pixel: u64, length: u64) -> Self {
+        let pixels = width as u64 * height as u64;
+        Self { kept: pixels * PIXEL, passing: length.saturating_add(pixels * a_pixel) }
+    }
+
     /// The most that it takes at once.
     #[must_use]
     pub fn most(self) -> u64 {
@@ -36,10 +42,9 @@ pub fn weighed(path: &Path) -> Result<Weight, Error> {
     let size = size.ok_or_else(|| unknown(path, |format| format.read.is_some()))?;
     let length = checked_length(path)?;
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
-    let ([width, height], a_pixel) =
+    let (size, a_pixel) =
         size(&mut BufReader::new(file)).map_err(|problem| Error::format(path, problem))?;
-    let pixels = width as u64 * height as u64;
-    Ok(Weight { kept: pixels * PIXEL, passing: length.saturating_add(pixels * a_pixel) })
+    Ok(Weight::of(size, a_pixel, length))
 }
 
 #[cfg(test)]

@@ -1,23 +1,14 @@
 //! Pixels one by one: however their lattice leans in the picture, each is made of the sixteen rays around.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
-use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f32x16, u8x16, u8x64};
+use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f32x16, u8x16};
 use glam::DVec2;
 
 use super::cubics::Cubics;
 use super::lattice_walk::LatticeWalk;
 use super::met_rays::MetRays;
+use crate::view::four_colors::{spread, sum};
 use crate::view::voxel_rays::VoxelRays;
-
-/// The bytes of number n in all four of block n.
-pub(super) const EACH: [u8; 64] = {
-    let (mut bytes, mut n) = ([0; 64], 0);
-    while n < 64 {
-        bytes[n] = (4 * (n / 16) + n % 4) as u8;
-        n += 1;
-    }
-    bytes
-};
 
 /// The pixels of a row, the first at `start`.
 #[inline(always)]
@@ -35,7 +26,7 @@ pub(super) fn pixels<S: Simd>(
     }
     let [none, first] = [both_axes!(0), both_axes!(1)];
     let [second, third] = [both_axes!(2), both_axes!(3)];
-    let (each, last) = (u8x64::from_slice(simd, &EACH), u8x16::from_slice(simd, &LAST));
+    let last = u8x16::from_slice(simd, &LAST);
     let excess = f32x4::from_slice(simd, &[met.excess, met.excess, met.excess, 0.0]);
     let right = rays.places.right;
     let [from, to] = met.shown((start, right), row.len());
@@ -55,11 +46,8 @@ pub(super) fn pixels<S: Simd>(
         let b = f32x16::from_slice(simd, b.as_flattened()) * down[1];
         let c = f32x16::from_slice(simd, c.as_flattened()) * down[2];
         let d = f32x16::from_slice(simd, d.as_flattened()) * down[3];
-        let across = simd.combine_f32x4(across, across);
-        let across = simd.combine_f32x8(across, across).swizzle_dyn_within_blocks(each);
-        let (left, right) = simd.split_f32x16(((a + b) + (c + d)) * across);
-        let (left, right) = simd.split_f32x8(left + right);
-        let color: f32x4<S> = (left + right).max(0.0);
+        let columns = ((a + b) + (c + d)) * spread(simd, across);
+        let color: f32x4<S> = sum(simd, columns).max(0.0);
         // What the cubics overshoot stays an opacity, and a color within it as those of rays are.
         let alpha = color.swizzle_dyn(last).min(1.0);
         color.min(alpha + excess).store_slice(pixel);

@@ -6,13 +6,13 @@
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, f32x16, i32x16, u8x64, u32x16};
+use fearless_simd::{f32x4, f32x16, i32x16, u32x16};
 
 use super::cubics::{Cubics, Powers};
 use super::lattice_walk::{FRACTION_BITS, LEAST_PART, UNSEEN_BITS, divided, fixed};
-use super::leaning::{EACH, four_of_row};
+use super::leaning::four_of_row;
 use super::met_rays::MetRays;
-use crate::view::four_colors::fourth;
+use crate::view::four_colors::{fourth, spread, sum};
 use crate::view::voxel_rays::VoxelRays;
 
 /// Columns that are made side by side.
@@ -93,14 +93,11 @@ impl<'a> Upright<'a> {
                 f32x4::from_slice(simd, &self.cubics.across[$power])
             };
         }
-        let each = u8x64::from_slice(simd, &EACH);
         let mut met = [i64::MAX, i64::MIN];
         for n in 0..COLUMNS {
             let (i, part) = divided(self.across[0] + (left + n) as i64 * self.across[1]);
             let weights = (power!(third) * part + power!(second)) * part + power!(first);
-            let weights = weights * part + power!(none);
-            let weights = simd.combine_f32x4(weights, weights);
-            let weights = simd.combine_f32x8(weights, weights).swizzle_dyn_within_blocks(each);
+            let weights = spread(simd, weights * part + power!(none));
             for (j, made) in (low..).zip(made.iter_mut()) {
                 let near = self.met.near.get(j as usize).filter(|near| i >= near[0] && i < near[1]);
                 let Some(four) = near.and_then(|_| four_of_row(self.rays, [i, j])) else {
@@ -109,9 +106,7 @@ impl<'a> Upright<'a> {
                 };
                 met = [met[0].min(j), met[1].max(j)];
                 let four = f32x16::from_slice(simd, four.as_flattened()) * weights;
-                let (left, right) = simd.split_f32x16(four);
-                let (left, right) = simd.split_f32x8(left + right);
-                (left + right).store_slice(&mut made[n]);
+                sum(simd, four).store_slice(&mut made[n]);
             }
         }
         met

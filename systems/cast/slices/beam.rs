@@ -73,11 +73,8 @@ impl<T: Texel> Beam<'_, T> {
     /// What is needed of the next brick.
     #[inline(always)]
     fn ahead(&self, next: Next, layer: i64) -> Ahead<'_, T> {
-        let axes = self.shear.axes;
-        let mut at = [0; 3];
-        (at[axes[0]], at[axes[1]]) = (next.at[0] as usize, next.at[1] as usize);
-        at[axes[2]] = layer as usize;
-        let stored = self.texels.stored_at(at);
+        let at = [next.at[0], next.at[1], layer].map(|at| at as usize);
+        let stored = self.texels.stored_at(self.shear.xyz(at));
         let words = sampled(self.pyramid, stored);
         Ahead { next, words, texels: self.texels.texels(stored) }
     }

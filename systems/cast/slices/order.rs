@@ -58,6 +58,8 @@ pub(super) struct Order<'a> {
     /// Rows of bricks that were begun, and the bricks of the last one that are left, the first of `low` being bit 0.
     begun: i64,
     bricks: u64,
+    /// Where that row is along v.
+    v: i64,
     /// The rays of the tile that this row may be met by, and bits of the columns where some had not stopped.
     rows: [usize; 2],
     open: u64,
@@ -79,17 +81,15 @@ impl<'a> Order<'a> {
             let last = first[axis] + apart[axis] * (size[axis] as i64 - 1) + layer.most[axis];
             last.div_euclid(EDGE).min(bricks[axis] as i64 - 1)
         });
-        let (begun, bricks, rows, open) = (0, 0, [0; 2], 0);
-        Self { shear, occupied, layer, place, low, high, begun, bricks, rows, open }
+        let (begun, bricks, v, rows, open) = (0, 0, 0, [0; 2], 0);
+        Self { shear, occupied, layer, place, low, high, begun, bricks, v, rows, open }
     }
 
     /// The next that rays of tiles may meet which have not stopped yet.
     #[inline(always)]
     pub fn next(&mut self, tiles: &[Tile]) -> Option<Next> {
-        let [u_ahead, v_ahead] = self.shear.ahead;
+        let u_ahead = self.shear.ahead[0];
         loop {
-            let v = self.begun - 1;
-            let v = if v_ahead { self.low[1] + v } else { self.high[1] - v };
             while self.bricks != 0 {
                 let behind =
                     if u_ahead { self.bricks.trailing_zeros() } else { self.bricks.ilog2() };
@@ -98,7 +98,7 @@ impl<'a> Order<'a> {
                 let columns = self.reached(0, u);
                 if columns[0] < columns[1] && self.open & Tile::columns(columns) != 0 {
                     let columns = Tile::columns(columns);
-                    return Some(Next { at: [u, v], rows: self.rows, columns });
+                    return Some(Next { at: [u, self.v], rows: self.rows, columns });
                 }
             }
             if self.low[0] > self.high[0] || self.begun > self.high[1] - self.low[1] {
@@ -111,13 +111,13 @@ impl<'a> Order<'a> {
     /// Begins the next row of bricks.
     #[inline(always)]
     fn begin(&mut self, tiles: &[Tile]) {
-        let v = self.begun;
-        let v = if self.shear.ahead[1] { self.low[1] + v } else { self.high[1] - v };
+        let [low, high] = [self.low[1] + self.begun, self.high[1] - self.begun];
+        self.v = if self.shear.ahead[1] { low } else { high };
         self.begun += 1;
-        self.rows = self.reached(1, v);
+        self.rows = self.reached(1, self.v);
         if self.rows[0] < self.rows[1] {
             let along = [self.low[0], self.high[0]].map(|u| u as usize);
-            self.bricks = self.occupied.among(along, [v, self.layer.number].map(|at| at as usize));
+            self.bricks = self.occupied.among(along, [self.v, self.layer.number].map(|at| at as usize));
             self.open = tiles.iter().fold(0, |any, tile| any | tile.open_in(self.rows));
         }
     }

@@ -105,6 +105,14 @@ impl Shear {
         })
     }
 
+    /// What is at `[u, v, w]`, along x, y and z.
+    #[inline]
+    pub fn xyz(&self, uvw: [usize; 3]) -> [usize; 3] {
+        let mut xyz = [0; 3];
+        self.axes.into_iter().zip(uvw).for_each(|(axis, at)| xyz[axis] = at);
+        xyz
+    }
+
     /// Rays of all phases, across and down.
     pub fn rays(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.count[axis] * self.parts[axis])
