@@ -117,7 +117,8 @@ impl<'a> Order<'a> {
         self.rows = self.reached(1, self.v);
         if self.rows[0] < self.rows[1] {
             let along = [self.low[0], self.high[0]].map(|u| u as usize);
-            self.bricks = self.occupied.among(along, [self.v, self.layer.number].map(|at| at as usize));
+            self.bricks =
+                self.occupied.among(along, [self.v, self.layer.number].map(|at| at as usize));
             self.open = tiles.iter().fold(0, |any, tile| any | tile.open_in(self.rows));
         }
     }
