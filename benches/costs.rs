@@ -9,7 +9,7 @@
 mod timed;
 mod way;
 
-use gelray::components::Sampling;
+use gelray::components::{Ellipsoid, Mesh, Sampling, Surface};
 use gelray::measure::cost::{COLORS, FRAME, paper_costs};
 use gelray::measure::variants;
 use gelray::scene::{EMBEDDED, Source};
@@ -29,6 +29,7 @@ fn main() {
         let mut floors = Vec::new();
         stages(&mut floors);
         frames(&mut floors);
+        polygons(&mut floors);
         floors.push(Floor::at_most("most memory of a frame, MB", 250.0, peak_memory()));
         println!("\nfloors");
         floors.iter().for_each(Floor::print);
@@ -162,6 +163,44 @@ fn frames(floors: &mut Vec<Floor>) {
     ));
     let brute = brute.ratio(&beside);
     floors.push(Floor::at_least("brute force to adaptive (paper: over 100)", 100.0, brute));
+}
+
+/// Figure 6a with a hundred thousand translucent triangles in place of its planes: two ellipsoids, one in the other.
+fn triangles(name: &'static str, sampling: impl Fn(&mut Sampling)) -> Way {
+    let mut way = alone(name, sampling);
+    for (radius, subdivisions) in [(95.0, 6), (60.0, 5)] {
+        let (center, radii) = ([0.0; 3], [radius; 3]);
+        let shape = Ellipsoid { center, radii, subdivisions, lumpiness: 0.2 };
+        let mesh = Mesh { ellipsoid: Some(shape), ..Mesh::default() };
+        let surface = Surface { opacity: 0.4, specular: 0.0, ..Surface::default() };
+        way.setting.world.spawn((mesh, surface));
+    }
+    way.setting.run();
+    way
+}
+
+/// What polygons add to a frame, at the same rays: without those between pixels, which their edges ask for.
+fn polygons(floors: &mut Vec<Floor>) {
+    let mixed = Source::embedded("figure_06a").expect("embedded");
+    let no_finer = |sampling: &mut Sampling| sampling.finest = 4;
+    let mut ways = [
+        alone("no polygon, a ray a pixel", a_ray_a_pixel),
+        Way::new("three planes, a ray a pixel", &mixed, a_ray_a_pixel),
+        triangles("102,400 triangles, a ray a pixel", a_ray_a_pixel),
+        alone("no polygon, at most a ray a pixel", no_finer),
+        Way::new("three planes, at most a ray a pixel", &mixed, no_finer),
+        triangles("102,400 triangles, at most a ray a pixel", no_finer),
+    ];
+    let views = if is_quick() { 3 } else { 9 };
+    for view in 0..views {
+        ways.iter_mut().for_each(|way| way.view(f64::from(view) * 40.0 + 5.0, 3));
+    }
+    println!("\npolygons, {views} views, best of 3 each");
+    for alike in ways.chunks(3) {
+        alike.iter().for_each(|way| way.print(&alike[0]));
+    }
+    floors.push(Floor::at_most("three planes to none", 1.3, ways[1].ratio(&ways[0])));
+    floors.push(Floor::at_most("102,400 triangles to none", 2.0, ways[2].ratio(&ways[0])));
 }
 
 /// The most memory in MB that a copy of this program took for one frame of figure 6a; NaN where the system tells none.

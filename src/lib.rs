@@ -90,7 +90,7 @@
 //! `cast` owns the rays of a view. `adaptive` casts rays on a coarse grid of the sample array, 4 × 4 positions a pixel, and
 //! splits regions whose corners differ in C; below a ray a pixel only where C_G and C_A both say that an edge is seen, of a
 //! polygon or a surface of values. Rays go in packets: tiles of four by four neighbours on the grid in use, or, where few
-//! are wanted, those of several tiles, put together by `gathered`. `march` takes a packet through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds in the ray's beam (`beams`) into slivers (equations
+//! are wanted, those of several tiles, put together by `gathered`. `march` takes a packet through slabs ([`composite`]), splits a slab at each polygon that `polygons` finds near the ray's beam into slivers (equations
 //! 2a and 2b), and stops a ray when what lies behind can add no more than ε_T. `medium` asks the [`pyramid`] how far the
 //! whole packet sees nothing (and before it a `Group` of packets), `window` finds which of its rays meet gel at the next four
 //! samples, all sixty-four places at once, and `kernel` samples it for them, with the widest instructions that the machine has; `values` samples a [`field`] of scalars in its place, and classifies, cuts,
@@ -188,6 +188,10 @@
 //! - **Regions that outlines of polygons cross are split to a ray a pixel from the start** (`outlines`): polygons smaller
 //!   than the first grid of rays are not lost between them. Those thinner than a pixel are split to the finest there, so that
 //!   what they cover does not depend on where between rays they fall; one thinner than the finest grid may still be missed.
+//! - **Polygons are looked for in the picture, not in space**: all rays of a view are known, so that each face is projected
+//!   once, dropped where it lies between all rays before its plane or its light is asked for, and put to the tiles of 16 × 16
+//!   positions that it may be met in; of a tile that lies in a face none of its edges is asked. A hierarchy in space would be
+//!   walked by every ray. Facets of a mesh are lit where they are met, few flat faces in advance.
 //!
 //! # What the paper leaves open, as chosen here
 //!

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::outline::edges;
+use super::outline::{Rings, edges};
 use super::simple;
 use crate::components::Color;
 use crate::shared::Shared;
@@ -21,7 +21,7 @@ pub struct Face {
     /// The mean of the outline's vertices: a point of the plane.
     pub center: DVec3,
     /// The outline first, then the holes; each at least three vertices.
-    pub outlines: Vec<Vec<DVec3>>,
+    pub outlines: Rings<DVec3>,
 }
 
 /// The faces of one entity, in the order stated; shared by pointer, equality is identity.
@@ -56,16 +56,15 @@ impl Faces {
     /// The middle of the bounding box of all vertices; `None` for no faces.
     #[must_use]
     pub fn middle(&self) -> Option<DVec3> {
-        let vertices = self.0.iter().flat_map(|face| face.outlines.iter().flatten().copied());
-        Extent::of(vertices).map(|extent| extent.center())
+        Extent::of(self.0.iter().flat_map(|face| face.outlines.vertices()))
+            .map(|extent| extent.center())
     }
 }
 
 impl Face {
     /// Bytes that it takes, with its outlines.
     fn bytes(&self) -> usize {
-        let outline = |outline: &Vec<DVec3>| size_of_val(outline) + size_of_val(&outline[..]) + 16;
-        size_of::<Self>() + 16 + self.outlines.iter().map(outline).sum::<usize>()
+        size_of::<Self>() + self.outlines.bytes_beside()
     }
 
     /// A polygon with its holes, checked: at least three vertices an outline, finite, of some area, in one plane, and simple.
@@ -107,15 +106,15 @@ impl Face {
             ));
         }
         simple::check(&outlines, normal)?;
-        Ok(Self { normal, center, outlines })
+        Ok(Self { normal, center, outlines: outlines.into() })
     }
 
     /// The corners of a triangle without holes, in the order stated; `None` of any other polygon.
     #[must_use]
     pub(crate) fn triangle(&self) -> Option<[DVec3; 3]> {
-        match &self.outlines[..] {
-            [outline] => outline.first_chunk::<3>().filter(|_| outline.len() == 3).copied(),
-            _ => None,
+        match &self.outlines {
+            Rings::Triangle(corners) => Some(*corners),
+            Rings::Many(_) => None,
         }
     }
 }

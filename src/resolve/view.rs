@@ -23,8 +23,8 @@ struct DefaultView;
 pub(super) fn extent(world: &World) -> Result<Extent, Fault> {
     let (mut grids, mut faces) = (world.query::<&Grid>(), world.query::<&Faces>());
     let corners = grids.iter().flat_map(Grid::corners);
-    let outlines = faces.iter().flat_map(|faces| faces.0.iter().flat_map(|face| &face.outlines));
-    match Extent::of(corners.chain(outlines.flatten().copied())) {
+    let faces = faces.iter().flat_map(|faces| faces.0.iter());
+    match Extent::of(corners.chain(faces.flat_map(|face| face.outlines.vertices()))) {
         Some(extent) if extent.radius().is_finite() => Ok(extent),
         Some(_) => Err(Fault::of_all(
             "its coordinates are too far apart to be computed with; state smaller ones",

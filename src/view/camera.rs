@@ -104,12 +104,14 @@ impl Camera {
 
     /// The depth of a world point, world units.
     #[must_use]
+    #[inline]
     pub fn depth(&self, point: DVec3) -> f64 {
         self.forward.dot(point - self.focal)
     }
 
     /// Window position in pixels and depth in world units of a world point, which is not at the depth of the eye.
     #[must_use]
+    #[inline]
     pub fn project(&self, point: DVec3) -> (DVec2, f64) {
         let [width, height] = self.size.map(|n| n as f64);
         let from = point - self.focal;

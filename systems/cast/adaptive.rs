@@ -9,6 +9,7 @@
 use rayon::prelude::*;
 
 use super::band::{Band, cut};
+use super::edges::EdgeColors;
 use super::gathered::cast_band;
 use super::lanes::Lanes;
 use super::level::Regions;
@@ -26,7 +27,7 @@ pub(crate) struct Refinement<'a, C> {
     caster: &'a C,
     array: SampleArray,
     /// C_A and C_G, where polygons, or surfaces of values, may ask for supersampling.
-    edges: Option<[Colors; 2]>,
+    edges: Option<EdgeColors>,
 }
 
 impl<'a, C: Caster> Refinement<'a, C> {
@@ -50,7 +51,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
             voxel_rays: None,
             counts: Counts::default(),
         };
-        let edges = supersampled.then(|| [Colors::new(&layout), Colors::new(&layout)]);
+        let edges = supersampled.then(|| EdgeColors::new(&layout));
         Self { sampling, crossed, caster, array, edges }
     }
 
@@ -96,16 +97,16 @@ impl<'a, C: Caster> Refinement<'a, C> {
     fn open(&mut self, wanted: impl Fn(usize, usize) -> bool) {
         let across = self.array.layout.blocks()[0];
         let mut count = 0;
-        for (at, opened) in self.array.opened.iter_mut().enumerate() {
-            if wanted(at % across, at / across) {
-                *opened = count;
-                count += 1;
+        for (y, opened) in self.array.opened.chunks_mut(across).enumerate() {
+            for (x, opened) in opened.iter_mut().enumerate() {
+                if wanted(x, y) {
+                    *opened = count;
+                    count += 1;
+                }
             }
         }
-        for colors in std::iter::once(&mut self.array.colors).chain(self.edges.iter_mut().flatten())
-        {
-            colors.fine = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
-        }
+        self.array.colors.fine = vec![[[0.0; 4]; POSITIONS * POSITIONS]; count as usize];
+        self.edges.iter_mut().for_each(|edges| edges.open(count as usize));
     }
 
     /// Which regions of `side` positions split: those of split parents whose corners differ.
@@ -115,12 +116,14 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let across = level.across;
         let rows = level.split.par_chunks_mut(across).zip(level.edges.par_chunks_mut(across));
         rows.enumerate().for_each(|(y, (split, edges))| {
-            for x in 0..across {
-                let above = parent.map_or([true; 2], |parent| parent.at(x / 2, y / 2));
-                if above[0] {
-                    edges[x] = above[1] && self.has_edge(x * side, y * side, side);
-                    split[x] = edges[x] || self.differs(x * side, y * side, side);
-                }
+            let mut decide = |x: usize, may_have_edge: bool| {
+                edges[x] = may_have_edge && self.has_edge(x * side, y * side, side);
+                split[x] = edges[x] || self.differs(x * side, y * side, side);
+            };
+            let Some(parent) = parent else { return (0..across).for_each(|x| decide(x, true)) };
+            for x in (0..across / 2).filter(|x| parent.split(*x, y / 2)) {
+                let [_, may_have_edge] = parent.at(x, y / 2);
+                [2 * x, 2 * x + 1].into_iter().for_each(|x| decide(x, may_have_edge));
             }
         });
         level
@@ -134,10 +137,10 @@ impl<'a, C: Caster> Refinement<'a, C> {
         };
         let above_a_pixel =
             side > POSITIONS && (self.sampling.tolerance <= 0.0 || crossed(&self.crossed.outlines));
-        let edge = |colors: &Colors| self.range(colors, i, j, side) > self.sampling.edge_tolerance;
+        let is_edge = |ranges: [f32; 2]| ranges.iter().all(|r| *r > self.sampling.edge_tolerance);
         above_a_pixel
             || crossed(&self.crossed.thin)
-            || self.edges.as_ref().is_some_and(|edges| edges.iter().all(edge))
+            || self.edges.as_ref().is_some_and(|edges| is_edge(self.ranges(edges, i, j, side)))
     }
 
     /// How clearly corners say that an edge is seen; without bound where the outline of a thin polygon does.
@@ -145,20 +148,22 @@ impl<'a, C: Caster> Refinement<'a, C> {
         if self.crossed.thin.as_ref().is_some_and(|thin| thin.cross(i, j, side)) {
             return f32::INFINITY;
         }
-        let ranges = self.edges.iter().flatten().map(|colors| self.range(colors, i, j, side));
-        ranges.fold(f32::INFINITY, f32::min)
+        let ranges = self.edges.as_ref().map(|edges| self.ranges(edges, i, j, side));
+        ranges.map_or(f32::INFINITY, |[attenuated, geometric]| attenuated.min(geometric))
     }
 
     /// Whether the corners of a region of more than a pixel differ in C by more than is tolerated.
     fn differs(&self, i: usize, j: usize, side: usize) -> bool {
-        side > POSITIONS && self.range(&self.array.colors, i, j, side) > self.sampling.tolerance
+        side > POSITIONS
+            && range(corners(i, j, side).map(|[i, j]| self.array.color(i, j)))
+                > self.sampling.tolerance
     }
 
-    /// The greatest range of any channel over the corners of a region.
-    fn range(&self, colors: &Colors, i: usize, j: usize, side: usize) -> f32 {
-        let corners = [(i, j), (i + side, j), (i, j + side), (i + side, j + side)];
+    /// The greatest ranges of any channel of C_A and of C_G over the corners of a region.
+    fn ranges(&self, edges: &EdgeColors, i: usize, j: usize, side: usize) -> [f32; 2] {
         let SampleArray { layout, opened, .. } = &self.array;
-        range(corners.map(|(i, j)| colors.value(layout, opened, i, j)))
+        let corners = corners(i, j, side).map(|corner| edges.at(layout, opened, corner));
+        [0, 1].map(|of| range(corners.map(|pair| pair[of])))
     }
 
     /// Casts a ray at every position of the lattice of `step` positions that is `wanted`, band by band; for who looks on, some
@@ -175,8 +180,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
         let mut done = 0;
         loop {
             let SampleArray { colors, opened, cast, counts, .. } = &mut self.array;
-            let colors = std::iter::once(colors).chain(self.edges.iter_mut().flatten());
-            let mut bands = cut(&layout, step, colors.collect(), opened, cast);
+            let mut bands = cut(&layout, step, (colors, self.edges.as_mut()), opened, cast);
             if done == 0 {
                 watch.expect(bands.len() as u64);
             }
@@ -224,6 +228,11 @@ fn cast_bands(
         counts += counted;
     }
     Ok(counts)
+}
+
+/// The corners of the region of `side` positions from `(i, j)` on.
+fn corners(i: usize, j: usize, side: usize) -> [[usize; 2]; 4] {
+    [[i, j], [i + side, j], [i, j + side], [i + side, j + side]]
 }
 
 /// The greatest range of any channel over four corners.

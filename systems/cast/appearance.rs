@@ -1,71 +1,135 @@
-//! How a polygon looks under the lights of a scene, as far as it is the same all over it (algorithm §3).
+//! How a polygon looks under the lights of a scene, where a ray meets it (algorithm §3).
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
-use super::bent::Bent;
+use super::receiving;
 use super::texture::FaceTexture;
-use crate::components::Surface;
-use crate::light::shading::{Lamps, Reflectance};
+use crate::light::shading::{Lamp, Lamps, Reflectance};
+use crate::light::strength::LightStrength;
+use crate::polygon::face::Face;
+use crate::volume::grid::Grid;
 
-/// How a polygon of one orientation and surface looks under the lights of a scene: constant over it, but for the cue,
-/// textures, shadows and what is bent.
-pub(crate) struct Appearance {
+/// What light falls on the faces of one entity, and how they answer it.
+#[derive(Clone, Copy)]
+pub(crate) struct Answer<'a> {
+    /// The coefficients of the entity's surface.
+    pub how: Reflectance,
+    /// The lights of the view.
+    pub lamps: &'a Lamps,
+    /// β of each light of `lamps` that casts a shadow.
+    pub strengths: &'a [Option<LightStrength>],
+    /// The grid of the volume that shadows are cast in.
+    pub grid: Option<&'a Grid>,
+}
+
+/// Which way a face points.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Pointing {
+    /// Its unit normal.
+    Flat(Vec3),
+    /// World points of it to vectors along the normal of what it stands for.
+    Bent(DAffine3),
+}
+
+/// How one face looks, but for the cue and the strengths of lights.
+pub(crate) struct Appearance<'a> {
     /// α_P.
     pub opacity: f64,
     /// c_P k_a.
     pub ambient: DVec3,
-    /// What it reflects of the lights that cast no shadow.
-    pub reflected: DVec3,
-    /// What it reflects of each light that does, unshadowed.
-    pub shadowed: Vec<DVec3>,
-    /// For each of those lights, the way from a point of it to the one whose strength it gets; empty without strengths.
-    pub shadow_offsets: Vec<DVec3>,
-    /// How it answers light where its normal is not the same all over it.
-    pub bent: Option<Box<Bent>>,
     /// Its texture.
-    pub texture: Option<FaceTexture>,
+    pub texture: Option<FaceTexture<'a>>,
+    answer: Answer<'a>,
+    face: &'a Face,
+    pointing: Pointing,
+    color: Vec3,
+    known: Option<Box<Known>>,
 }
 
-impl Appearance {
-    /// The appearance of a face of unit normal `normal`, with the texture on it; `shadow_offsets` are those of
-    /// [`shadow_offsets`](super::receiving::shadow_offsets).
+/// What is the same all over a face, found in advance.
+struct Known {
+    /// What it reflects of the lights that cast no shadow, and of each that does, unshadowed; of a flat face.
+    reflected: Option<(DVec3, Vec<DVec3>)>,
+    /// For each of those lights, the way from a point of it to the one whose strength it gets.
+    offsets: Vec<DVec3>,
+}
+
+impl<'a> Appearance<'a> {
+    /// The appearance of a face of a color and an opacity, and how it points, with the texture on it.
+    #[inline]
     pub fn new(
-        surface: &Surface,
-        normal: DVec3,
-        lamps: &Lamps,
-        shadow_offsets: Vec<DVec3>,
-        texture: Option<FaceTexture>,
+        answer: Answer<'a>,
+        (color, opacity): (Vec3, f32),
+        (face, pointing): (&'a Face, Pointing),
+        texture: Option<FaceTexture<'a>>,
     ) -> Self {
-        let (how, normal): (Reflectance, Vec3) = (surface.into(), normal.as_vec3());
-        let color = surface.color.0;
-        let reflected =
-            lamps.plain.iter().map(|lamp| lamp.reflected(color, normal, &how)).sum::<Vec3>();
-        let shadowed = lamps.shadowed.iter();
         Self {
-            opacity: f64::from(surface.opacity),
-            ambient: (color * how.ambient).as_dvec3(),
-            reflected: reflected.as_dvec3(),
-            shadowed: shadowed
-                .map(|(_, lamp)| lamp.reflected(color, normal, &how).as_dvec3())
-                .collect(),
-            shadow_offsets,
-            bent: None,
+            opacity: f64::from(opacity),
+            ambient: (color * answer.how.ambient).as_dvec3(),
             texture,
+            answer,
+            face,
+            pointing,
+            color,
+            known: None,
         }
     }
 
-    /// The same face, with a normal that runs from corner to corner.
-    pub fn bent(self, bent: Option<Bent>) -> Self {
-        Self { bent: bent.map(Box::new), ..self }
+    /// The same, with all found that is the same wherever it is met.
+    pub fn in_advance(self) -> Self {
+        let shadowed = 0..self.answer.lamps.shadowed.len();
+        let reflected = matches!(self.pointing, Pointing::Flat(_)).then(|| {
+            let all = shadowed.clone().map(|light| self.shadowed_at(light, || DVec3::ZERO));
+            (self.reflected_at(|| DVec3::ZERO), all.collect())
+        });
+        let offsets = shadowed.map(|light| self.shadow_offset(light)).collect();
+        let texture = self.texture.map(FaceTexture::in_advance);
+        Self { known: Some(Box::new(Known { reflected, offsets })), texture, ..self }
+    }
+
+    /// How many lights cast shadows.
+    pub fn shadows(&self) -> usize {
+        self.answer.lamps.shadowed.len()
+    }
+
+    fn normal_at(&self, world: impl Fn() -> DVec3) -> Vec3 {
+        match &self.pointing {
+            Pointing::Flat(normal) => *normal,
+            Pointing::Bent(normal) => {
+                normal.transform_point3(world()).normalize_or_zero().as_vec3()
+            }
+        }
     }
 
     /// What it reflects at a world point of it of the lights that cast no shadow.
     pub fn reflected_at(&self, world: impl Fn() -> DVec3) -> DVec3 {
-        self.bent.as_ref().map_or(self.reflected, |bent| bent.reflected(world()))
+        if let Some((reflected, _)) = self.known.as_ref().and_then(|k| k.reflected.as_ref()) {
+            return *reflected;
+        }
+        let normal = self.normal_at(world);
+        let reflected = |lamp: &Lamp| lamp.reflected(self.color, normal, &self.answer.how);
+        self.answer.lamps.plain.iter().map(reflected).sum::<Vec3>().as_dvec3()
     }
 
     /// What it reflects there of the light of that number that does, unshadowed.
     pub fn shadowed_at(&self, light: usize, world: impl Fn() -> DVec3) -> DVec3 {
-        self.bent.as_ref().map_or(self.shadowed[light], |bent| bent.shadowed(light, world()))
+        if let Some((_, shadowed)) = self.known.as_ref().and_then(|k| k.reflected.as_ref()) {
+            return shadowed[light];
+        }
+        let (_, lamp) = &self.answer.lamps.shadowed[light];
+        lamp.reflected(self.color, self.normal_at(world), &self.answer.how).as_dvec3()
+    }
+
+    /// The way from a point of it to the point whose strength of that light it gets, world units.
+    pub fn shadow_offset(&self, light: usize) -> DVec3 {
+        if let Some(known) = &self.known {
+            return known.offsets[light];
+        }
+        let Answer { lamps, strengths, grid, .. } = &self.answer;
+        let (_, lamp) = &lamps.shadowed[light];
+        let strength = strengths.get(light).and_then(Option::as_ref);
+        grid.map_or(DVec3::ZERO, |grid| {
+            receiving::shadow_offset(self.face.normal, (lamp, strength), grid)
+        })
     }
 }

@@ -1,5 +1,6 @@
 //! Bands: rows of the sample array, as high as a row of packets, so that bands are written side by side.
 
+use super::edges::{EdgeColors, EdgePart};
 use super::lanes::{LANES, Lanes, SIDE, each};
 use super::targets::RayColors;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
@@ -17,8 +18,10 @@ pub(crate) struct Band<'b> {
     bottom: usize,
     /// What was counted in it.
     pub counts: Counts,
-    /// C, and C_A and C_G where they are kept.
-    colors: Vec<Part<'b>>,
+    /// C.
+    colors: Part<'b>,
+    /// C_A and C_G, where they are kept.
+    edges: EdgePart<'b>,
     /// Blocks across.
     across: usize,
     opened: &'b [u32],
@@ -36,26 +39,36 @@ struct Part<'b> {
 pub fn cut<'b>(
     layout: &Layout,
     step: usize,
-    colors: Vec<&'b mut Colors>,
+    (colors, edges): (&'b mut Colors, Option<&'b mut EdgeColors>),
     opened: &'b [u32],
     cast: &'b mut [u16],
 ) -> Vec<Band<'b>> {
     let height = (SIDE * step).max(LEAST);
     let across = layout.blocks()[0];
     let rows = height / POSITIONS * across;
-    let mut left: Vec<Part<'b>> = colors
-        .into_iter()
-        .map(|Colors { lattice, fine }| Part { lattice: &mut lattice[..], fine: &mut fine[..] })
-        .collect();
+    let mut colors = Part { lattice: &mut colors.lattice[..], fine: &mut colors.fine[..] };
+    let mut edges = edges.map(EdgeColors::whole).unwrap_or_default();
     let mut first = 0;
     let mut bands = Vec::with_capacity(opened.len().div_ceil(rows));
     let down = layout.positions()[1];
     for (number, (opened, cast)) in opened.chunks(rows).zip(cast.chunks_mut(rows)).enumerate() {
         let fine = opened.iter().filter(|&&block| block != NONE).count();
-        let colors = left.iter_mut().map(|part| part.take(opened.len(), fine)).collect();
+        let colors = colors.take(opened.len(), fine);
+        let edges = edges.take(opened.len(), fine);
         let (top, bottom) = (number * height, ((number + 1) * height).min(down));
         let counts = Counts::default();
-        bands.push(Band { number, top, bottom, counts, colors, across, opened, first, cast });
+        bands.push(Band {
+            number,
+            top,
+            bottom,
+            counts,
+            colors,
+            edges,
+            across,
+            opened,
+            first,
+            cast,
+        });
         first += fine as u32;
     }
     bands
@@ -93,8 +106,18 @@ impl Band<'_> {
     ) {
         let (across, shift) = (layout.positions()[0], step.trailing_zeros());
         // Down before across: what is below one another lies in the same bricks.
+        let mut closed = false;
         for i in (0..across).step_by(SIDE * step) {
+            if step < POSITIONS && i % LEAST == 0 {
+                closed = !self.any_open([i, self.top], LEAST);
+            }
+            if closed {
+                continue;
+            }
             for j in (self.top..self.bottom).step_by(SIDE * step) {
+                if step < POSITIONS && !self.any_open([i, j], SIDE * step) {
+                    continue;
+                }
                 let mut lanes = wanted(i >> shift, j >> shift);
                 let last = (SIDE - 1) * step;
                 let whole = i + last < across && j + last < self.bottom && step >= POSITIONS;
@@ -122,6 +145,17 @@ impl Band<'_> {
         self.bottom
     }
 
+    /// Whether any block is opened of those from a position on, `side` positions across and down.
+    fn any_open(&self, at: [usize; 2], side: usize) -> bool {
+        let (side, first) = (side / POSITIONS, self.place(at).1);
+        let column = first % self.across;
+        (0..side).any(|row| {
+            let row = (first + row * self.across).min(self.opened.len());
+            let end = (row + side.min(self.across - column)).min(self.opened.len());
+            self.opened[row..end].iter().any(|block| *block != NONE)
+        })
+    }
+
     fn is_open(&self, x: usize, y: usize) -> bool {
         self.opened[self.place([x, y]).1] != NONE
     }
@@ -147,10 +181,8 @@ impl Band<'_> {
             self.cast[block] |= 1 << within;
             let Some(rays) = rays else { continue };
             let place = (within, block, self.opened[block].wrapping_sub(self.first));
-            let RayColors { full, attenuated, geometric } = &rays[lane];
-            for (part, color) in self.colors.iter_mut().zip([full, attenuated, geometric]) {
-                part.write(place, color);
-            }
+            self.colors.write(place, &rays[lane].full);
+            self.edges.write(place, &rays[lane]);
         }
         self.counts.rays += u64::from(wanted.count_ones());
     }

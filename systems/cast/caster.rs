@@ -4,10 +4,11 @@
 use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
+use super::gathering::{Gathering, Hit, geometric};
 use super::lanes::{LANES, Packet, each};
-use super::march::{Gathering, Hit, Slabs, geometric, march};
+use super::march::{Slabs, march};
 use super::media::Media;
-use super::polygons::Polygons;
+use super::polygons::{Met, Polygons};
 use super::projection::Projections;
 use super::targets::{Caster, RayColors};
 use crate::view::samples::Counts;
@@ -16,15 +17,15 @@ use crate::view::walk::Tile;
 /// Casts rays, a packet at a time.
 pub(crate) struct BeamCaster<'a, M> {
     /// What rays may meet of polygons.
-    pub polygons: Polygons,
+    pub polygons: Polygons<'a>,
     /// And what they show of volumes that are projected.
     pub projections: Projections<'a>,
     /// What all rays have in common.
     pub slabs: Slabs,
     /// What they may meet of volumes.
     pub media: &'a M,
-    /// Whether C_G is asked for.
-    pub three_colors: bool,
+    /// C_G is asked of rays that are farther apart than so many positions: others may be cast between them.
+    pub finest: usize,
     /// The instructions that rays are cast with; no bit depends on them.
     pub level: Level,
 }
@@ -36,14 +37,17 @@ pub(crate) struct Scratch<E> {
     ahead: [i64; 2],
     /// Where the packet is in the volumes that are projected.
     tiles: Vec<Tile>,
-    /// What the rays meet, one after the other.
+    /// What its rays meet of polygons.
+    met: Met,
+    /// Those and what they meet of projections.
     hits: Vec<Hit>,
 }
 
 impl<E: Default> Default for Scratch<E> {
     fn default() -> Self {
         let ahead = [i64::MIN, i64::MAX];
-        Self { entered: E::default(), ahead, tiles: Vec::new(), hits: Vec::new() }
+        let (tiles, hits) = (Vec::new(), Vec::new());
+        Self { entered: E::default(), ahead, tiles, met: Met::default(), hits }
     }
 }
 
@@ -82,8 +86,9 @@ impl<M: Media> BeamCaster<'_, M> {
         scratch: &mut Scratch<M::Entered>,
         counts: &mut Counts,
     ) -> bool {
-        let Scratch { entered, ahead, tiles, hits } = scratch;
-        let no_hits = self.polygons.is_empty() && self.projections.is_empty();
+        let Scratch { entered, ahead, tiles, met, hits } = scratch;
+        self.polygons.meet(packet, met);
+        let no_hits = met.is_empty() && self.projections.is_empty();
         let mut range = *ahead;
         if range[0] < range[1] {
             let own = self.media.enter(packet, entered);
@@ -96,19 +101,21 @@ impl<M: Media> BeamCaster<'_, M> {
             return false;
         }
         let mut gathered = [Gathering::new([0; 2]); LANES];
-        hits.clear();
-        if !no_hits {
+        if self.projections.is_empty() {
+            each(packet.wanted).for_each(|lane| gathered[lane] = Gathering::new(met.of(lane)));
+        } else {
+            hits.clear();
             self.projections.enter(packet, tiles);
             for lane in each(packet.wanted) {
                 let first = hits.len();
-                self.polygons.meet(packet.position(lane), hits);
-                if !self.projections.is_empty() {
-                    let is_opaque = |hit: &Hit| self.polygons.is_opaque(hit);
-                    self.projections.meet((packet, tiles, lane), (hits, first), is_opaque, counts);
-                }
+                let [from, to] = met.of(lane).map(|n| n as usize);
+                hits.extend_from_slice(&met.hits()[from..to]);
+                let is_opaque = |hit: &Hit| self.polygons.is_opaque(hit);
+                self.projections.meet((packet, tiles, lane), (hits, first), is_opaque, counts);
                 gathered[lane] = Gathering::new([first as u32, hits.len() as u32]);
             }
         }
+        let hits = if self.projections.is_empty() { met.hits() } else { hits };
         let own = gathered.map(|ray| ray.hits());
         march(
             (simd, self.media, entered, range),
@@ -130,7 +137,7 @@ impl<M: Media> BeamCaster<'_, M> {
             let surfaces = self.media.has_surfaces();
             if surfaces || !hits.is_empty() {
                 color.attenuated = ray.attenuated();
-                if self.three_colors {
+                if packet.step > self.finest {
                     let plain = |hit: &Hit| match self.projections.shade(hit) {
                         Some(_) => (DVec3::ZERO, 0.0),
                         None => self.polygons.plain(hit, packet.position(lane)),

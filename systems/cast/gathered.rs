@@ -20,8 +20,7 @@ impl Group {
     fn of(step: usize) -> Option<Self> {
         let side = band::LEAST;
         let reach = side - step;
-        (step == POSITIONS || step == 2 * POSITIONS)
-            .then(|| Self { side, apart: reach.div_ceil(SIDE - 1) })
+        (step <= 2 * POSITIONS).then(|| Self { side, apart: reach.div_ceil(SIDE - 1) })
     }
 }
 

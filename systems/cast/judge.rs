@@ -107,7 +107,7 @@ impl Case {
     fn judge(&self, camera: &Camera, watch: &Watch) -> Result<Judged, Error> {
         let Inputs { view, sampling, .. } = &self.inputs;
         let layout = Layout::new(view.size.map(|n| n as usize), 1, sampling.pixel_filter.reach());
-        rays::send(&self.inputs, camera, layout, Judging { case: self, watch })
+        rays::send(&self.inputs, camera, (layout, 1), Judging { case: self, watch })
     }
 }
 

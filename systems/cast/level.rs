@@ -36,8 +36,9 @@ pub struct Regions {
 impl Regions {
     /// A level of `across × down` regions, none of them split.
     pub fn new([across, down]: [usize; 2], side: usize) -> Self {
-        let none = vec![false; across * down];
-        Self { side, across, split: none.clone(), edges: none }
+        // Fresh zeros each: what is not split is not touched.
+        let [split, edges] = [(); 2].map(|()| vec![false; across * down]);
+        Self { side, across, split, edges }
     }
 
     /// Whether a region is split, and whether it is whatever textures show.

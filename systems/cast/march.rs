@@ -9,34 +9,11 @@ use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::crossing::Sheet;
+use super::gathering::{Gathering, Hit, Shaded};
 use super::lanes::{LANES, Lanes, each};
 use super::media::Media;
-use crate::view::composite::{Gathered, recolor, thicken};
+use crate::view::composite::{recolor, thicken};
 use crate::view::samples::Counts;
-
-/// A polygon that a ray meets, shaded.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Shaded {
-    /// Associated colour: textured, shadowed, cued.
-    pub color: DVec3,
-    /// α_P, textured.
-    pub opacity: f64,
-    /// The associated colour that C_A and C_G see: neither textured nor shadowed.
-    pub plain_color: DVec3,
-    /// The opacity that C_A and C_G see.
-    pub plain_opacity: f64,
-}
-
-/// A polygon on a ray: where, and which.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Hit {
-    /// Depth along the ray, world units.
-    pub depth: f64,
-    /// Its number among the faces seen, in the order of the scene.
-    pub face: u32,
-    /// What a projection shows; 0 of a face.
-    pub value: f32,
-}
 
 /// What all rays of a view have in common.
 #[derive(Debug, Clone, Copy)]
@@ -61,83 +38,6 @@ impl Slabs {
     }
 }
 
-/// The state of C and C_A of one ray (paper §2).
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Gathering {
-    /// C: volume and polygons.
-    pub full: Gathered,
-    /// C_A: polygons attenuated by the volume.
-    attenuated: Gathered,
-    /// How much of the ray polygons cover in C_A.
-    covered: f64,
-    /// C_G as far as the ray goes, where volumes have surfaces.
-    geometric: Gathered,
-    /// Those of the packet's hits that the ray has not come to yet.
-    left: [u32; 2],
-}
-
-impl Gathering {
-    /// Nothing gathered yet by a ray that is to meet the hits numbered `[first, end)`.
-    pub fn new(hits: [u32; 2]) -> Self {
-        let nothing = Gathered::NOTHING;
-        Self { full: nothing, attenuated: nothing, covered: 0.0, geometric: nothing, left: hits }
-    }
-
-    /// Those of the packet's hits that the ray has not come to yet, `[first, end)`.
-    pub fn hits(&self) -> [u32; 2] {
-        self.left
-    }
-
-    /// C_A; what polygons cover is kept beside, as associated RGBA.
-    pub fn attenuated(&self) -> [f32; 4] {
-        let [r, g, b] = self.attenuated.color.to_array();
-        [r as f32, g as f32, b as f32, self.covered as f32]
-    }
-
-    /// C_G of a ray that meets surfaces of volumes: as far as it went, and then the polygons that it did not come to.
-    pub fn with_surfaces(
-        &self,
-        hits: &[Hit],
-        plain: impl Fn(&Hit) -> (DVec3, f64),
-        stop: f64,
-    ) -> [f32; 4] {
-        under(self.geometric, hits, plain, stop)
-    }
-
-    /// Whether polygons are still to come: only then does C_A go on.
-    fn has_hits(&self) -> bool {
-        self.left[0] < self.left[1]
-    }
-
-    fn is_open(&self, stop: f64) -> bool {
-        self.full.through > stop || (self.has_hits() && self.attenuated.through > stop)
-    }
-
-    #[inline]
-    fn gel(&mut self, color: DVec3, opacity: f64, sheet: Option<Sheet>, stop: f64) {
-        if self.full.through > stop {
-            self.full.under(color, opacity);
-        }
-        if let Some(sheet) = sheet {
-            self.covered += self.attenuated.through * sheet.opacity;
-            self.attenuated.under(sheet.color, opacity);
-            self.geometric.under(sheet.turn, sheet.opacity);
-        } else if self.has_hits() {
-            self.attenuated.under(DVec3::ZERO, opacity);
-        }
-    }
-
-    fn polygon(&mut self, met: &Shaded, stop: f64, counts: &mut Counts) {
-        if self.full.through > stop {
-            counts.polygon_hits += 1;
-            self.full.under(met.color, met.opacity);
-        }
-        self.covered += self.attenuated.through * met.plain_opacity;
-        self.attenuated.under(met.plain_color, met.plain_opacity);
-        self.geometric.under(met.plain_color, met.plain_opacity);
-    }
-}
-
 /// Takes the rays of a packet, which has entered `media`, through it and the polygons at `hits`; each ray's own are in the
 /// order of their depths. `shade` shades a hit of a ray, and is called for those alone that the ray reaches.
 #[inline(always)]
@@ -154,13 +54,17 @@ pub fn march<S: Simd, M: Media>(
     let (mut open, mut k, mut gel) = (lanes, first, i64::MIN);
     while open != 0 {
         if gel < k {
-            let found = media.seek(simd, entered, (k, open), counts);
+            let found = if k < end { media.seek(simd, entered, (k, open), counts) } else { end };
             gel = if found < end { found } else { i64::MAX };
         }
-        k = gel.min(next.least);
-        if k == i64::MAX {
+        if gel == i64::MAX {
+            // What is left has no gel around it.
+            for lane in each(open) {
+                gathered[lane].polygons(hits, |hit| shade(hit, lane), slabs.stop, counts);
+            }
             break;
         }
+        k = gel.min(next.least);
         let met = if k == gel { media.meet(simd, entered, (k, open), counts) } else { 0 };
         let cut = if k == eye { open } else { next.at(k, open) };
         for lane in each(met & !cut) {
@@ -185,7 +89,7 @@ pub fn march<S: Simd, M: Media>(
         }
         // Also where those that were to meet a polygon here have stopped before it.
         if cut != 0 || k >= next.least {
-            next = Next::new(slabs, hits, open, gathered);
+            next.after(slabs, hits, (cut, open), gathered);
         }
         k += 1;
     }
@@ -200,12 +104,25 @@ struct Next {
 impl Next {
     fn new(slabs: &Slabs, hits: &[Hit], lanes: Lanes, gathered: &[Gathering; LANES]) -> Self {
         let mut next = Self { slabs: [i64::MAX; LANES], least: i64::MAX };
-        for lane in each(lanes).filter(|&lane| gathered[lane].has_hits()) {
-            let slab = slabs.number(hits[gathered[lane].left[0] as usize].depth);
-            next.slabs[lane] = slab;
-            next.least = next.least.min(slab);
-        }
+        next.after(slabs, hits, (lanes, lanes), gathered);
         next
+    }
+
+    /// The next polygons of the rays `passed`, which may have passed some, and of those that are not `open` any longer none.
+    fn after(
+        &mut self,
+        slabs: &Slabs,
+        hits: &[Hit],
+        (passed, open): (Lanes, Lanes),
+        gathered: &[Gathering; LANES],
+    ) {
+        for lane in each(passed) {
+            let ray = &gathered[lane];
+            let next = || slabs.number(hits[ray.left[0] as usize].depth);
+            self.slabs[lane] = if ray.has_hits() { next() } else { i64::MAX };
+        }
+        each(!open).for_each(|lane| self.slabs[lane] = i64::MAX);
+        self.least = self.slabs.iter().fold(i64::MAX, |least, slab| least.min(*slab));
     }
 
     /// Which of `lanes` meet a polygon in slab `k`.
@@ -286,27 +203,4 @@ impl Slab {
         *passed = sheet.part;
         ray.gel(sheet.color, sheet.opacity, Some(*sheet), stop);
     }
-}
-
-/// C_G of a ray: the polygons alone, as associated RGBA; stops on its own (paper §6). `plain` shades a hit: associated
-/// colour and opacity.
-pub fn geometric(hits: &[Hit], plain: impl Fn(&Hit) -> (DVec3, f64), stop: f64) -> [f32; 4] {
-    under(Gathered::NOTHING, hits, plain, stop)
-}
-
-/// The polygons at `hits` behind what was gathered, as associated RGBA.
-fn under(
-    mut ray: Gathered,
-    hits: &[Hit],
-    plain: impl Fn(&Hit) -> (DVec3, f64),
-    stop: f64,
-) -> [f32; 4] {
-    for hit in hits {
-        if ray.through <= stop {
-            break;
-        }
-        let (color, opacity) = plain(hit);
-        ray.under(color, opacity);
-    }
-    ray.rgba(0.0)
 }

@@ -1,31 +1,36 @@
 //! Casting rays: the hybrid ray tracer of the paper's §2 with the optimisations of its §6.
 //!
 //! `inputs` gathers what a view's rays may meet, `rays` makes of it what they need, and sends them on an errand: that of a
-//! picture, or `judge`'s, who casts `exact_pixel`s to tell how far a picture is off. `adaptive` says where rays are cast,
-//! `gathered` puts them together to packets of sixteen, `caster` takes those, `march` takes a packet through slabs and slivers. `media` is the gel as a packet
-//! meets it: nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing` and slabs that
-//! are `integrated`), or `several` that overlap. A packet leaps as a `bundle` over what is empty, and looks through a `window`
-//! at what may not be; `beams` says where it can meet a polygon. `projection` is volumes of which a ray shows one value, `sought` along it. `polygons` says
-//! which faces a ray meets, `projected` how deep, `appearance`, `texture`, `cue` and `receiving` how they look.
+//! picture, or `judge`'s, who casts `exact_pixel`s to tell how far a picture is off. `adaptive` says where rays are cast, by
+//! what `edges` keeps of them too, `gathered` puts them together to packets of sixteen, `caster` takes those, `march` takes a
+//! packet through slabs and slivers, `gathering` is what each of its rays has seen. `media` is the gel as a packet meets it:
+//! nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing` and slabs that are
+//! `integrated`), or `several` that overlap. A packet leaps as a `bundle` over what is empty, and looks through a `window` at
+//! what may not be. `polygons` says which faces a ray meets: `projected` says where on the picture each is and how deep,
+//! `beams` which rays may be in it, `binned` which faces a beam is near to; `looks`, `appearance`, `texture`, `cue` and
+//! `receiving` say how they look. `projection` is volumes of which a ray shows one value, `sought` along it.
 
 mod adaptive;
 mod appearance;
 mod band;
 mod beams;
-mod bent;
+mod binned;
 mod bundle;
 mod caps;
 mod caster;
 mod crossing;
 mod cue;
+mod edges;
 mod exact_pixel;
 mod gathered;
+mod gathering;
 mod inputs;
 mod integrated;
 mod judge;
 mod kernel;
 mod lanes;
 mod level;
+mod looks;
 mod march;
 mod media;
 mod medium;
@@ -117,7 +122,8 @@ fn cast(inputs: &Inputs, camera: &Camera, onlookers: Onlookers<'_>) -> Result<Sa
     // The first pictures for who looks on reach further beyond the picture's own edges.
     let coarsest = onlookers.1.map_or(1, |_| preview::FIRST).max(inputs.sampling.coarsest);
     let widest = layout(&inputs.view, &Sampling { coarsest, ..inputs.sampling.clone() });
-    rays::send(inputs, camera, widest, Refine { inputs, onlookers })
+    let finest = inputs.sampling.finest as usize;
+    rays::send(inputs, camera, (widest, finest), Refine { inputs, onlookers })
 }
 
 /// The errand of a picture: its sample array.

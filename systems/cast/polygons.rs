@@ -4,87 +4,164 @@
 //! their depths.
 
 use glam::{DVec3, Vec4};
+use prefetch_index::prefetch_index;
 
 use super::appearance::Appearance;
-use super::beams::Beams;
+use super::beams::{Beams, Patch};
+use super::binned::{Binned, Near, Spread};
 use super::cue::Cue;
-use super::march::{Hit, Shaded};
+use super::gathering::{Hit, Shaded};
+use super::lanes::{LANES, Lanes, Packet, each};
+use super::looks::{FEW, Look};
 use super::projected::ProjectedFace;
 use super::targets::{Crossed, Outlines};
 use crate::components::Sampling;
 use crate::light::strength::LightStrength;
-use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::samples::Layout;
 
-/// Every polygon of a scene on one view, in the order of the scene, and for each beam those it may meet.
-pub struct Polygons {
+/// Faces near a beam that are asked of memory before they are looked at.
+const AHEAD: usize = 3;
+
+/// Every polygon of a scene that rays of one view may meet, in the order of the scene, and for each beam those near it.
+pub struct Polygons<'a> {
     faces: Vec<ProjectedFace>,
-    /// For each beam: its part of `binned`.
-    starts: Vec<u32>,
-    binned: Vec<u32>,
+    binned: Binned,
     beams: Beams,
+    looks: Vec<Look<'a>>,
     /// Depths no further apart than this are one, world units.
     slack: f64,
     cue: Option<Cue>,
-    camera: Camera,
+    camera: &'a Camera,
     /// β of each light that casts a shadow, where something is in its way.
-    strengths: Vec<Option<LightStrength>>,
+    strengths: &'a [Option<LightStrength>],
 }
 
-impl Polygons {
-    /// Sorts the polygons into beams. Depths closer than `slack` (world units) differ by rounding alone; `strengths` are
-    /// those of the lights that the appearances call shadowed.
-    pub fn new(
-        faces: Vec<ProjectedFace>,
-        beams: &Beams,
-        slack: f64,
-        camera: Camera,
-        cue: Option<Cue>,
-        strengths: Vec<Option<LightStrength>>,
-    ) -> Self {
-        let around = |face: &ProjectedFace| {
-            let [low, high] = face.bounds();
-            beams.around(low, high)
-        };
-        let mut starts = vec![0_u32; beams.counts[0] * beams.counts[1] + 1];
-        let each = |[across, down]: [std::ops::Range<usize>; 2]| {
-            let row = beams.counts[0];
-            down.flat_map(move |y| across.clone().map(move |x| y * row + x))
-        };
-        faces.iter().flat_map(|face| each(around(face))).for_each(|beam| starts[beam + 1] += 1);
-        for beam in 1..starts.len() {
-            starts[beam] += starts[beam - 1];
-        }
-        let mut next = starts.clone();
-        let mut binned = vec![0; starts[starts.len() - 1] as usize];
-        for (number, face) in faces.iter().enumerate() {
-            for beam in each(around(face)) {
-                binned[next[beam] as usize] = number as u32;
-                next[beam] += 1;
-            }
-        }
-        Self { faces, starts, binned, beams: *beams, slack, cue, camera, strengths }
+/// What the rays of a packet meet, ray after ray.
+#[derive(Default)]
+pub(crate) struct Met {
+    found: Vec<(u8, Hit)>,
+    hits: Vec<Hit>,
+    /// For each ray where its own end.
+    ends: [u32; LANES],
+}
+
+impl Met {
+    /// All hits: those of a ray together, in the order of depths, ties in the order of the scene.
+    pub fn hits(&self) -> &[Hit] {
+        &self.hits
     }
 
-    /// Whether there is no polygon.
+    /// Which of the hits a ray has, `[first, end)`.
+    pub fn of(&self, lane: usize) -> [u32; 2] {
+        if self.hits.is_empty() {
+            return [0; 2];
+        }
+        [lane.checked_sub(1).map_or(0, |before| self.ends[before]), self.ends[lane]]
+    }
+
+    /// Whether no ray meets anything.
+    pub fn is_empty(&self) -> bool {
+        self.hits.is_empty()
+    }
+
+    /// Puts what was found in the order of the rays.
+    fn sort(&mut self) {
+        let Self { found, hits, ends } = self;
+        *ends = [0; LANES];
+        found.iter().for_each(|(lane, _)| ends[usize::from(*lane)] += 1);
+        let (mut next, mut sum) = ([0; LANES], 0);
+        for lane in 0..LANES {
+            next[lane] = sum;
+            sum += ends[lane];
+            ends[lane] = sum;
+        }
+        hits.clear();
+        hits.resize(found.len(), Hit { depth: 0.0, face: 0, value: 0.0 });
+        for (lane, hit) in found {
+            let at = &mut next[usize::from(*lane)];
+            hits[*at as usize] = *hit;
+            *at += 1;
+        }
+    }
+}
+
+impl<'a> Polygons<'a> {
+    /// Sorts the faces that rays may meet, each with the positions of those rays, into beams. Depths closer than `slack`
+    /// (world units) differ by rounding alone; `strengths` are those of the lights that the looks call shadowed.
+    pub fn new(
+        (faces, patches): (Vec<ProjectedFace>, &[Patch]),
+        looks: Vec<Look<'a>>,
+        beams: Beams,
+        slack: f64,
+        (camera, cue): (&'a Camera, Option<Cue>),
+        strengths: &'a [Option<LightStrength>],
+    ) -> Self {
+        let binned = Binned::new(&faces, patches, &beams);
+        Self { faces, binned, beams, looks, slack, cue, camera, strengths }
+    }
+
+    /// Whether rays meet no polygon.
     pub fn is_empty(&self) -> bool {
         self.faces.is_empty()
     }
 
-    /// Adds to `hits` what the ray at a position meets (counted from the middle of pixel (0, 0)), in the order of depths, ties
-    /// in the order of the scene.
-    pub fn meet(&self, position: [i64; 2], hits: &mut Vec<Hit>) {
-        let (first, beam) = (hits.len(), self.beams.around_position(position));
-        let window = Camera::window(position);
-        let near = &self.binned[self.starts[beam] as usize..self.starts[beam + 1] as usize];
-        for &number in near {
-            let face = &self.faces[number as usize];
-            if face.holds(window) {
-                hits.push(Hit { depth: face.depth(window), face: number, value: 0.0 });
+    /// Finds what the wanted rays of a packet meet.
+    pub fn meet(&self, packet: &Packet, met: &mut Met) {
+        met.found.clear();
+        if self.is_empty() {
+            return met.hits.clear();
+        }
+        let place = |lane: usize| self.beams.place(packet.position(lane));
+        let mut left = packet.wanted;
+        while left != 0 {
+            let beam = self.beams.around(place(left.trailing_zeros() as usize));
+            let is_here = |lane: &usize| self.beams.around(place(*lane)) == beam;
+            let here = if is_here(&0) && is_here(&(LANES - 1)) && !packet.places.are_scattered() {
+                left
+            } else {
+                each(left).filter(is_here).fold(0, |set, lane| set | 1 << lane)
+            };
+            left &= !here;
+            self.meet_near(self.binned.near(beam), packet, here, &mut met.found);
+        }
+        if met.found.is_empty() {
+            return met.hits.clear();
+        }
+        met.sort();
+        let mut first = 0;
+        for end in met.ends {
+            self.order(&mut met.hits[first..end as usize]);
+            first = end as usize;
+        }
+    }
+
+    /// Finds what rays of one beam meet of the polygons near it.
+    fn meet_near(&self, near: &[Near], packet: &Packet, here: Lanes, found: &mut Vec<(u8, Hit)>) {
+        if near.is_empty() {
+            return;
+        }
+        let spread = Spread::of(each(here), |lane| self.beams.place(packet.position(lane)));
+        for (number, met) in near.iter().enumerate() {
+            // Faces near one another in a beam are not in memory, and each is met by few rays.
+            let ahead = near.get(number + AHEAD).map_or(0, |ahead| ahead.face as usize);
+            prefetch_index(&self.faces, ahead);
+            let face = &self.faces[met.face as usize];
+            for lane in each(spread.met(met)) {
+                let window = Camera::window(packet.position(lane));
+                if met.whole || face.holds(window) {
+                    let depth = face.depth(window, self.camera);
+                    found.push((lane as u8, Hit { depth, face: met.face, value: 0.0 }));
+                }
             }
         }
-        let hits = &mut hits[first..];
+    }
+
+    /// Puts the hits of a ray in the order of their depths.
+    fn order(&self, hits: &mut [Hit]) {
+        if hits.len() < 2 {
+            return;
+        }
         hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.face.cmp(&b.face)));
         // Coincident polygons have one plane but not one centre, so that their depths differ in the last bits.
         for tied in hits.chunk_by_mut(|a, b| b.depth - a.depth <= self.slack) {
@@ -96,20 +173,29 @@ impl Polygons {
         }
     }
 
+    /// How a face looks, by its number among those that rays may meet.
+    #[inline]
+    fn look<R>(&self, face: u32, to: impl FnOnce(&Appearance<'_>) -> R) -> R {
+        let ProjectedFace { of: [entity, at], normal, .. } = self.faces[face as usize];
+        self.looks[entity as usize].with((at as usize, normal), to)
+    }
+
     /// Whether nothing is seen through a hit.
     pub(crate) fn is_opaque(&self, hit: &Hit) -> bool {
-        let appearance = self.faces[hit.face as usize].appearance();
-        appearance.opacity >= 1.0 && appearance.texture.is_none()
+        let [entity, at] = self.faces[hit.face as usize].of;
+        self.looks[entity as usize].is_opaque(at as usize)
     }
 
     /// Associated colour and opacity of a hit of the ray at a position, without texture and shadows.
     pub fn plain(&self, hit: &Hit, position: [i64; 2]) -> (DVec3, f64) {
-        let appearance = self.faces[hit.face as usize].appearance();
+        self.look(hit.face, |appearance| self.plain_of(appearance, hit, position))
+    }
+
+    fn plain_of(&self, face: &Appearance<'_>, hit: &Hit, position: [i64; 2]) -> (DVec3, f64) {
         let world = || self.camera.ray(Camera::window(position)).at(hit.depth);
-        let shadowed = |light| appearance.shadowed_at(light, world);
-        let lights = 0..appearance.shadowed.len();
-        let reflected = appearance.reflected_at(world) + lights.map(shadowed).sum::<DVec3>();
-        ((appearance.ambient + reflected * self.fade(hit)) * appearance.opacity, appearance.opacity)
+        let shadowed = |light| face.shadowed_at(light, world);
+        let reflected = face.reflected_at(world) + (0..face.shadows()).map(shadowed).sum::<DVec3>();
+        ((face.ambient + reflected * self.fade(hit)) * face.opacity, face.opacity)
     }
 
     /// What the depth cue leaves of the light that is reflected at a hit.
@@ -119,9 +205,17 @@ impl Polygons {
 
     /// Shades a hit of the ray at a position, which stands for `step` positions.
     pub fn shade(&self, hit: &Hit, position: [i64; 2], step: usize) -> Shaded {
-        let appearance = self.faces[hit.face as usize].appearance();
-        let (plain_color, plain_opacity) = self.plain(hit, position);
-        if appearance.texture.is_none() && self.strengths.iter().all(Option::is_none) {
+        self.look(hit.face, |appearance| self.shade_of(appearance, hit, (position, step)))
+    }
+
+    fn shade_of(
+        &self,
+        face: &Appearance<'_>,
+        hit: &Hit,
+        (position, step): ([i64; 2], usize),
+    ) -> Shaded {
+        let (plain_color, plain_opacity) = self.plain_of(face, hit, position);
+        if face.texture.is_none() && self.strengths.iter().all(Option::is_none) {
             return Shaded {
                 color: plain_color,
                 opacity: plain_opacity,
@@ -131,29 +225,28 @@ impl Polygons {
         }
         let ray = self.camera.ray(Camera::window(position));
         let world = ray.at(hit.depth);
-        let shadowed = self.shadowed(appearance, world);
-        let reflected = appearance.reflected_at(|| world);
-        let lit = appearance.ambient + (reflected + shadowed) * self.fade(hit);
-        let texel = appearance.texture.as_ref();
+        let shadowed = self.shadowed(face, world);
+        let reflected = face.reflected_at(|| world);
+        let lit = face.ambient + (reflected + shadowed) * self.fade(hit);
+        let texel = face.texture.as_ref();
         let texel = texel.map_or(Vec4::ONE, |texture| texture.at(&ray, hit.depth, step));
         let texel = texel.as_dvec4();
         Shaded {
-            color: lit * texel.truncate() * appearance.opacity,
-            opacity: appearance.opacity * texel.w,
+            color: lit * texel.truncate() * face.opacity,
+            opacity: face.opacity * texel.w,
             plain_color,
             plain_opacity,
         }
     }
 
     /// What a face reflects at a world point of the lights that cast shadows: Σ c_i β_i (equation 4).
-    fn shadowed(&self, appearance: &Appearance, world: DVec3) -> DVec3 {
+    fn shadowed(&self, face: &Appearance<'_>, world: DVec3) -> DVec3 {
         let beta = |light: usize| {
             let strength = self.strengths.get(light).and_then(Option::as_ref);
-            let offset = appearance.shadow_offsets.get(light).copied().unwrap_or_default();
-            strength.map_or(1.0, |strength| f64::from(strength.at(world + offset)))
+            strength
+                .map_or(1.0, |strength| f64::from(strength.at(world + face.shadow_offset(light))))
         };
-        let lights = 0..appearance.shadowed.len();
-        lights.map(|light| appearance.shadowed_at(light, || world) * beta(light)).sum()
+        (0..face.shadows()).map(|light| face.shadowed_at(light, || world) * beta(light)).sum()
     }
 
     /// Where outlines ask for rays.
@@ -161,7 +254,8 @@ impl Polygons {
         let asked = sampling.outlines && !self.is_empty();
         // Regions down to two pixels' side are split where outlines cross them.
         let outlines = (asked && sampling.coarsest > 4).then(|| self.outlines(layout, 8, |_| true));
-        let is_thin = ProjectedFace::is_thin;
+        let is_thin =
+            |face: &ProjectedFace| self.looks[face.of[0] as usize].faces() <= FEW && face.is_thin();
         let thin = asked && sampling.finest < 4 && self.faces.iter().any(is_thin);
         Crossed { outlines, thin: thin.then(|| self.outlines(layout, 4, is_thin)), most: None }
     }
@@ -174,10 +268,8 @@ impl Polygons {
         wanted: impl Fn(&ProjectedFace) -> bool,
     ) -> Outlines {
         let mut outlines = Outlines::none(layout, side);
-        for outline in
-            self.faces.iter().filter(|face| wanted(face)).flat_map(ProjectedFace::outlines)
-        {
-            for (p, q) in edges(outline) {
+        for face in self.faces.iter().filter(|face| wanted(face)) {
+            for (p, q) in face.outlines().edges() {
                 let [p, q] = [p, q].map(|window| outlines.square(layout, window));
                 outlines.mark(p, q);
             }

@@ -5,106 +5,102 @@
 //! edge is computed from the edge's ends in one order, whichever polygon asks: an edge that two polygons share is met
 //! exactly once. A polygon in the plane of the rays, or of the eye, is missed.
 
-use glam::{DVec2, DVec3};
+use glam::{BVec2, DVec2, DVec3, Vec3};
 
-use super::appearance::Appearance;
+use super::beams::Patch;
 use crate::polygon::face::Face;
-use crate::polygon::outline::edges;
+use crate::polygon::outline::{Rings, edges};
 use crate::view::camera::Camera;
 
-/// How far outside the bounding box of a polygon a ray is sure to miss it, pixels.
-const OUTSIDE: f64 = 1e-6;
 /// A sine under this is 0: then the polygon is seen edge-on.
 const EDGE_ON: f64 = 1e-9;
 
 /// A polygon of the scene on one view.
 pub(crate) struct ProjectedFace {
     /// The outlines in window coordinates, pixels; holes as the rest: a position inside an odd number of them is in.
-    outlines: Vec<Vec<DVec2>>,
-    low: DVec2,
-    high: DVec2,
+    outlines: Rings<DVec2>,
     plane: Plane,
-    appearance: Appearance,
-    thin: bool,
+    /// Its unit normal in the world, which is looked at wherever it is met.
+    pub normal: Vec3,
+    /// The number of its entity among those that are traced, and its own among the faces of that.
+    pub of: [u32; 2],
 }
 
 /// A polygon is thin whose area is less than this for each pixel of half its outline: a strip as wide, a square twice as wide.
 const THIN: f64 = 1.0;
-/// More faces than these are facets of a mesh: each is small, and what they cover is not.
-const FEW: usize = 256;
-
-/// The depth of a face's plane at a window position (x, y).
-enum Plane {
-    /// `x · dx + y · dy + d`.
-    Parallel(DVec3),
-    /// `above / (x · dx + y · dy + d) − eye`.
-    Perspective { above: f64, below: DVec3, eye: f64 },
+/// The depth of a face's plane at a window position (x, y): `x · dx + y · dy + d`, and with an eye `above` divided by that,
+/// from the eye on.
+struct Plane {
+    above: f64,
+    below: DVec3,
 }
 
 impl ProjectedFace {
-    /// A face on a view; `None` if it is seen edge-on or lies behind the eye. It is one of `faces`
-    /// of its entity.
-    pub fn new(face: &Face, camera: &Camera, appearance: Appearance, faces: usize) -> Option<Self> {
+    /// A face on a view, which is number `of` of its entity and of all, and the positions that rays may meet it at; `None` if
+    /// there are none, or it is seen edge-on or lies behind the eye.
+    #[inline]
+    pub fn new(
+        face: &Face,
+        of: [u32; 2],
+        camera: &Camera,
+        patch: impl Fn([DVec2; 2]) -> Option<Patch>,
+    ) -> Option<(Patch, Self)> {
+        let outlines = projected(&face.outlines, camera);
+        let patch = patch(match &outlines {
+            Rings::Triangle([a, b, c]) => [a.min(*b).min(*c), a.max(*b).max(*c)],
+            Rings::Many(_) => {
+                let nothing = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+                outlines.vertices().fold(nothing, |[low, high], v| [low.min(v), high.max(v)])
+            }
+        })?;
         let plane = Plane::of(face, camera)?;
-        let outlines: Vec<Vec<DVec2>> =
-            face.outlines.iter().map(|outline| projected(outline, camera)).collect();
-        let corners = outlines.iter().flatten();
-        let (low, high) = corners
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &v| {
-                (low.min(v), high.max(v))
-            });
-        let thin = faces <= FEW && is_thin(&outlines);
-        // The box rejects and never decides: rounding there must not take from a polygon what its neighbour leaves to it.
-        let (low, high) = (low - OUTSIDE, high + OUTSIDE);
-        low.cmple(high).all().then_some(Self { outlines, low, high, plane, appearance, thin })
-    }
-
-    /// The window positions, least and greatest, outside which a ray is sure to miss it.
-    pub fn bounds(&self) -> [DVec2; 2] {
-        [self.low, self.high]
+        Some((patch, Self { outlines, plane, normal: face.normal.as_vec3(), of }))
     }
 
     /// Its outlines in window coordinates.
-    pub fn outlines(&self) -> &[Vec<DVec2>] {
+    pub fn outlines(&self) -> &Rings<DVec2> {
         &self.outlines
     }
 
-    /// Whether rays a pixel apart may miss it.
+    /// Whether rays a pixel apart may miss it: what its outlines enclose is less than [`THIN`] wide.
     pub fn is_thin(&self) -> bool {
-        self.thin
-    }
-
-    /// How it looks.
-    pub(crate) fn appearance(&self) -> &Appearance {
-        &self.appearance
+        let (mut area, mut length) = (0.0, 0.0);
+        for (p, q) in self.outlines.edges() {
+            area += p.perp_dot(q - p) / 2.0;
+            length += p.distance(q);
+        }
+        area.abs() < THIN * length / 2.0
     }
 
     /// Whether a window position lies in the polygon: inside an odd number of outlines, borders to one side.
+    #[inline]
     pub fn holds(&self, at: DVec2) -> bool {
-        if at.cmplt(self.low).any() || at.cmpgt(self.high).any() {
-            return false;
-        }
-        let mut inside = false;
-        for outline in &self.outlines {
+        let odd = |inside: bool, outline: &[DVec2]| {
+            let mut inside = inside;
             let mut from = outline.last().copied().unwrap_or_default();
             for to in outline {
                 inside ^= crosses(from, *to, at);
                 from = *to;
             }
+            inside
+        };
+        match &self.outlines {
+            Rings::Triangle(corners) => odd(false, corners),
+            Rings::Many(outlines) => outlines.iter().fold(false, |inside, o| odd(inside, o)),
         }
-        inside
     }
 
-    /// The depth of its plane at a window position, world units.
-    pub fn depth(&self, at: DVec2) -> f64 {
-        match &self.plane {
-            Plane::Parallel(depth) => depth.dot(at.extend(1.0)),
-            Plane::Perspective { above, below, eye } => above / below.dot(at.extend(1.0)) - eye,
-        }
+    /// The depth of its plane at a window position, world units, on a view of that camera.
+    #[inline]
+    pub fn depth(&self, at: DVec2, camera: &Camera) -> f64 {
+        let Plane { above, below } = &self.plane;
+        let along = below.dot(at.extend(1.0));
+        camera.eye.map_or(along, |eye| above / along - eye)
     }
 }
 
 impl Plane {
+    #[inline]
     fn of(face: &Face, camera: &Camera) -> Option<Self> {
         let facing = face.normal.dot(camera.forward);
         // A step of the window to the right and down, in the focal plane, along the normal.
@@ -120,11 +116,8 @@ impl Plane {
             }
             let (dx, dy) = (-right / facing, -down / facing);
             let (center, middle) = camera.project(face.center);
-            return Some(Self::Parallel(DVec3::new(
-                dx,
-                dy,
-                middle - dx * center.x - dy * center.y,
-            )));
+            let below = DVec3::new(dx, dy, middle - dx * center.x - dy * center.y);
+            return Some(Self { above: 1.0, below });
         };
         // The distance from the eye along the line of sight: its part along the normal is the same for every ray.
         let from = face.center - (camera.focal - camera.forward * eye);
@@ -135,16 +128,26 @@ impl Plane {
         let middle = DVec2::from(camera.size.map(|n| n as f64 / 2.0));
         let (dx, dy) = (right / eye, down / eye);
         let below = DVec3::new(dx, dy, facing - dx * middle.x - dy * middle.y);
-        Some(Self::Perspective { above, below, eye })
+        Some(Self { above, below })
     }
 }
 
-/// An outline in window coordinates, without what is nearer to the eye than is drawn.
-fn projected(outline: &[DVec3], camera: &Camera) -> Vec<DVec2> {
-    let ahead = |p: &DVec3| camera.depth(*p) - camera.nearest();
-    if camera.eye.is_none() || outline.iter().all(|p| ahead(p) >= 0.0) {
-        return outline.iter().map(|p| camera.project(*p).0).collect();
+/// Outlines in window coordinates, without what is nearer to the eye than is drawn.
+#[inline]
+fn projected(outlines: &Rings<DVec3>, camera: &Camera) -> Rings<DVec2> {
+    let nearest = camera.nearest();
+    if camera.eye.is_none() || outlines.vertices().all(|p| camera.depth(p) - nearest >= 0.0) {
+        return match outlines {
+            Rings::Triangle(corners) => Rings::Triangle(corners.map(|p| camera.project(p).0)),
+            Rings::Many(_) => outlines.map(|p| camera.project(p).0),
+        };
     }
+    Rings::Many(outlines.iter().map(|outline| drawn(outline, camera)).collect())
+}
+
+/// What is drawn of an outline, in window coordinates.
+fn drawn(outline: &[DVec3], camera: &Camera) -> Vec<DVec2> {
+    let ahead = |p: &DVec3| camera.depth(*p) - camera.nearest();
     let mut kept = Vec::with_capacity(outline.len() + 2);
     for (p, q) in edges(outline) {
         if ahead(&p) >= 0.0 {
@@ -160,24 +163,13 @@ fn projected(outline: &[DVec3], camera: &Camera) -> Vec<DVec2> {
     kept
 }
 
-/// Whether what outlines enclose, in pixels, is less than [`THIN`] wide.
-fn is_thin(outlines: &[Vec<DVec2>]) -> bool {
-    let (mut area, mut length) = (0.0, 0.0);
-    for outline in outlines {
-        for (p, q) in edges(outline) {
-            area += p.perp_dot(q - p) / 2.0;
-            length += p.distance(q);
-        }
-    }
-    area.abs() < THIN * length / 2.0
-}
-
 /// Whether the edge from `p` to `q` passes to the right of `at`, its lower end counted and its upper end not; the same
 /// for (q, p).
+#[inline]
 fn crosses(p: DVec2, q: DVec2, at: DVec2) -> bool {
-    if (p.y <= at.y) == (q.y <= at.y) {
-        return false;
-    }
-    let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
-    (high - low).perp_dot(at - low) > 0.0
+    // No branches: which way an edge goes is as good as random from one to the next.
+    let passes = (p.y <= at.y) != (q.y <= at.y);
+    let rises = BVec2::splat(p.y <= q.y);
+    let (low, high) = (DVec2::select(rises, p, q), DVec2::select(rises, q, p));
+    passes & ((high - low).perp_dot(at - low) > 0.0)
 }

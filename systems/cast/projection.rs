@@ -3,8 +3,8 @@
 //! What a ray shows is met like a polygon: at the depth of the value, so that polygons before it cover it and those behind are
 //! covered. A brick whose scalars cannot surpass what was found is leapt over, to the very samples that walking would meet.
 
+use super::gathering::{Hit, Shaded};
 use super::lanes::Packet;
-use super::march::{Hit, Shaded};
 use super::sought::Sought;
 use crate::components::{Classify, Clip, Material, Projection};
 use crate::view::camera::Camera;

@@ -1,32 +1,26 @@
 //! What the rays of a view meet, made of the inputs; and the errands that they are sent on.
 
-use std::sync::Arc;
-
 use fearless_simd::Level;
 
-use super::appearance::Appearance;
 use super::beams::Beams;
-use super::bent::Bent;
 use super::caster::BeamCaster;
 use super::cue::Cue;
 use super::inputs::{Inputs, Placed, Sampled};
 use super::kernel;
+use super::looks::Look;
 use super::march::Slabs;
 use super::media::{Media, Nothing};
 use super::medium::{Medium, Source};
 use super::polygons::Polygons;
 use super::projected::ProjectedFace;
 use super::projection::Projections;
-use super::receiving;
 use super::several::{AnyMedium, Several};
 use super::shaft::Dust;
-use super::texture::FaceTexture;
 use super::values::Values;
-use crate::components::{Sampling, Skip, Surface};
+use crate::components::{Sampling, Skip};
 use crate::error::Error;
-use crate::polygon::face::FaceColors;
 use crate::view::camera::Camera;
-use crate::view::samples::Layout;
+use crate::view::samples::{Layout, POSITIONS};
 use crate::view::walk::Walk;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
 use crate::volume::grid::smallest_spacing;
@@ -53,19 +47,19 @@ pub fn stop(sampling: &Sampling) -> f64 {
     if stop_at > 0.0 { stop_at } else { f64::NEG_INFINITY }
 }
 
-/// Sends rays on an errand; `layout` holds every position that they are cast at.
+/// Sends rays on an errand; `layout` holds every position that they are cast at, no closer than `finest` of them.
 pub fn send<E: Errand>(
     inputs: &Inputs,
     camera: &Camera,
-    layout: Layout,
+    (layout, finest): (Layout, usize),
     errand: E,
 ) -> Result<E::Done, Error> {
-    let beams = Beams::new(layout);
+    let beams = Beams::new(layout, finest);
     let cue = inputs.cue.map(|cue| {
         let near = camera.depth(inputs.extent.center()) - inputs.extent.radius();
         Cue { k1: cue.k1, k2: cue.k2, near }
     });
-    let polygons = polygons(inputs, camera, &beams, cue);
+    let polygons = polygons(inputs, camera, beams, cue);
     let eye = camera.eye.map_or(f64::NEG_INFINITY, |eye| -eye);
     let slabs = Slabs { distance: distance(inputs), stop: stop(&inputs.sampling), eye };
     let dust = Dust::new(&inputs.shafts, camera).map_err(|p| Error::entity("shaft", p))?;
@@ -80,9 +74,11 @@ pub fn send<E: Errand>(
     let skips = inputs.sampling.skip != Skip::None;
     let projections = Projections::new(&inputs.projections, camera, slabs.distance, skips);
     let projections = projections.map_err(|problem| Error::entity("view", problem))?;
-    let sampling = &inputs.sampling;
-    let three_colors = sampling.finest < 4 && sampling.coarsest > sampling.finest;
-    let rays = Rays { polygons, projections, slabs, three_colors };
+    let Sampling { finest, coarsest, .. } = inputs.sampling;
+    // Edges are looked for where they may ask for more than a ray a pixel.
+    let has_edges = (finest as usize) < POSITIONS && coarsest > finest;
+    let finest = if has_edges { finest as usize } else { usize::MAX };
+    let rays = Rays { polygons, projections, slabs, finest };
     match media.len() {
         0 => rays.go(&Nothing, errand),
         1 => match media.swap_remove(0) {
@@ -98,29 +94,28 @@ pub fn send<E: Errand>(
     }
 }
 
-/// The polygons of a scene on a view.
-fn polygons(inputs: &Inputs, camera: &Camera, beams: &Beams, cue: Option<Cue>) -> Polygons {
-    let lamps = &inputs.lamps;
-    let shared = Arc::new(lamps.clone());
-    let projected = inputs.polygons.iter().flat_map(|traced| {
-        traced.faces.0.iter().enumerate().filter_map(|(at, face)| {
-            let texture =
-                traced.textured.as_ref().and_then(|by| FaceTexture::new(by, (at, face), camera));
-            let offsets = traced.grid.as_ref().map_or_else(Vec::new, |grid| {
-                receiving::shadow_offsets(face.normal, lamps, &inputs.strengths, grid)
-            });
-            let own = FaceColors::of(traced.colors.as_ref(), at);
-            let color = own.unwrap_or(traced.surface.color);
-            let surface = Surface { color, ..traced.surface };
-            let bent = traced.normals.as_ref().and_then(|normals| normals.over(at, face));
-            let bent = bent.map(|normal| Bent::new(normal, &surface, &shared));
-            let looks = Appearance::new(&surface, face.normal, lamps, offsets, texture).bent(bent);
-            ProjectedFace::new(face, camera, looks, traced.faces.0.len())
-        })
-    });
+/// The polygons of a scene that rays of a view may meet.
+fn polygons<'a>(
+    inputs: &'a Inputs,
+    camera: &'a Camera,
+    beams: Beams,
+    cue: Option<Cue>,
+) -> Polygons<'a> {
+    let patch = |bounds| beams.patch(bounds);
+    let (mut faces, mut patches) = (Vec::new(), Vec::new());
+    for (entity, traced) in inputs.polygons.iter().enumerate() {
+        let seen =
+            |(at, face)| ProjectedFace::new(face, [entity, at].map(|n| n as u32), camera, patch);
+        let seen = traced.faces.0.iter().enumerate().filter_map(seen);
+        seen.for_each(|(patch, face)| {
+            faces.push(face);
+            patches.push(patch);
+        });
+    }
+    let looks = inputs.polygons.iter().map(|traced| Look::new(traced, inputs, camera)).collect();
     // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
     let slack = 1e-9 * inputs.extent.radius() + 1e-14 * inputs.extent.center().abs().max_element();
-    Polygons::new(projected.collect(), beams, slack, *camera, cue, inputs.strengths.clone())
+    Polygons::new((faces, &patches), looks, beams, slack, (camera, cue), &inputs.strengths)
 }
 
 /// What the volumes of a view have in common.
@@ -209,16 +204,16 @@ impl<'a> SharedView<'a> {
 
 /// What the rays of a view share, whatever they meet.
 struct Rays<'a> {
-    polygons: Polygons,
+    polygons: Polygons<'a>,
     projections: Projections<'a>,
     slabs: Slabs,
-    three_colors: bool,
+    finest: usize,
 }
 
 impl Rays<'_> {
     fn go<M: Media, E: Errand>(self, media: &M, errand: E) -> Result<E::Done, Error> {
-        let Self { polygons, projections, slabs, three_colors } = self;
+        let Self { polygons, projections, slabs, finest } = self;
         let level = Level::new();
-        errand.run(BeamCaster { polygons, projections, slabs, media, three_colors, level })
+        errand.run(BeamCaster { polygons, projections, slabs, media, finest, level })
     }
 }

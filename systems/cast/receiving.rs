@@ -5,9 +5,8 @@
 //! read from where the light has not met the layer yet, or a bias nearer to the light if that is farther.
 
 use glam::DVec3;
-use hecs::Entity;
 
-use crate::light::shading::{Lamp, Lamps};
+use crate::light::shading::Lamp;
 use crate::light::strength::LightStrength;
 use crate::light::strength::Shear;
 use crate::polygon::coverage::REACH;
@@ -17,25 +16,20 @@ use crate::volume::grid::Grid;
 /// is faint, and its way would leave out what else stands in it.
 const FLATTEST: f64 = 0.2;
 
-/// The way from a point on a face of unit normal `normal` to the point whose strength it gets, world units; one for each
-/// light of `lamps` that casts a shadow.
-pub(crate) fn shadow_offsets(
+/// The way from a point on a face of unit normal `normal` to the point whose strength of a light it gets, world units.
+pub(crate) fn shadow_offset(
     normal: DVec3,
-    lamps: &Lamps,
-    strengths: &[Option<LightStrength>],
+    (lamp, strength): (&Lamp, Option<&LightStrength>),
     grid: &Grid,
-) -> Vec<DVec3> {
+) -> DVec3 {
     let covector = grid.index_to_world.matrix3.transpose() * normal;
-    let way = |((_, lamp), strength): (&(Entity, Lamp), &Option<LightStrength>)| {
-        let toward = lamp.toward.as_dvec3();
-        let bias = strength.as_ref().map_or(0.0, LightStrength::bias);
-        // Opacities are interpolated within slices, and strengths between columns and slices: so many cells farther does
-        // the layer reach.
-        let slices = Shear::new(grid, toward).map(|shear| shear.axes[2]);
-        let cells =
-            DVec3::from(std::array::from_fn(|axis| f64::from(2 - u8::from(slices == Some(axis)))));
-        let clear = REACH * covector.length() + covector.abs().dot(cells);
-        toward * bias.max(clear / normal.dot(toward).abs().max(FLATTEST))
-    };
-    lamps.shadowed.iter().zip(strengths).map(way).collect()
+    let toward = lamp.toward.as_dvec3();
+    let bias = strength.map_or(0.0, LightStrength::bias);
+    // Opacities are interpolated within slices, and strengths between columns and slices: so many cells farther does
+    // the layer reach.
+    let slices = Shear::new(grid, toward).map(|shear| shear.axes[2]);
+    let cells =
+        DVec3::from(std::array::from_fn(|axis| f64::from(2 - u8::from(slices == Some(axis)))));
+    let clear = REACH * covector.length() + covector.abs().dot(cells);
+    toward * bias.max(clear / normal.dot(toward).abs().max(FLATTEST))
 }

@@ -79,25 +79,35 @@ impl Outlines {
     pub fn mark(&mut self, p: DVec2, q: DVec2) {
         const SLACK: f64 = 1e-6;
         let down = (self.crossed.len() / self.across) as f64;
+        let (least, most) = (p.min(q) - SLACK, p.max(q) + SLACK);
+        if least.cmpge(DVec2::ZERO).all() && most.x < self.across as f64 && most.y < down {
+            let [from, to] = [least, most].map(|end| (end.x as usize, end.y as usize));
+            if from == to {
+                self.crossed[from.1 * self.across + from.0] = true;
+                return;
+            }
+        }
         let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
-        let rows = (low.y - SLACK).floor().max(0.0)..(high.y + SLACK).floor().min(down - 1.0);
+        if high.y + SLACK < 0.0 {
+            return;
+        }
+        // Casts saturate, and cut off what is not below 0.
+        let rows = (low.y - SLACK).max(0.0) as usize..=(high.y + SLACK).min(down - 1.0) as usize;
         let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
-        let mut row = rows.start;
-        while row <= rows.end {
+        for row in rows {
             let (from, to) = if high.y > low.y {
                 let at = |y: f64| low.x + (y.clamp(low.y, high.y) - low.y) * slope;
-                (at(row), at(row + 1.0))
+                (at(row as f64), at(row as f64 + 1.0))
             } else {
                 (low.x, high.x)
             };
-            let first = (from.min(to) - SLACK).floor().max(0.0) as usize;
-            let last = (from.max(to) + SLACK).floor().min(self.across as f64 - 1.0);
+            let first = (from.min(to) - SLACK).max(0.0) as usize;
+            let last = (from.max(to) + SLACK).min(self.across as f64 - 1.0);
             if last >= 0.0 {
                 for x in first..=last as usize {
-                    self.crossed[row as usize * self.across + x] = true;
+                    self.crossed[row * self.across + x] = true;
                 }
             }
-            row += 1.0;
         }
     }
 

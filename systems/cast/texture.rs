@@ -10,37 +10,40 @@ use crate::view::ray::Ray;
 use crate::view::samples::POSITIONS;
 
 /// A texture on a face, as a view sees it.
-pub(crate) struct FaceTexture {
-    texture: MappedTexture,
+pub(crate) struct FaceTexture<'a> {
+    texture: &'a MappedTexture,
     mapping: Mapping,
-    camera: Camera,
-    /// What a ray stands for, in the texture: a pixel, half a pixel, a quarter. The same all over the face, or in
-    /// perspective found where a ray meets it.
-    footprints: Option<[Footprint; 3]>,
+    camera: &'a Camera,
+    /// What a ray stands for, in the texture: a pixel, half a pixel, a quarter. Where it is the same all over the face it
+    /// may be found in advance; else it is where a ray meets it.
+    footprints: Option<Box<[Footprint; 3]>>,
 }
 
 /// Sides in pixels of what a ray stands for: rays further apart than pixels stand for a pixel each.
 const SIDES: [f64; 3] = [1.0, 0.5, 0.25];
 
-impl FaceTexture {
+impl<'a> FaceTexture<'a> {
     /// The texture as it lies on `face` of that number; `None` where it shows none of it on the face, such as
     /// upright on it.
-    pub fn new(by: &TexturedBy, (at, face): (usize, &Face), camera: &Camera) -> Option<Self> {
-        let texture = by.laid.on(at)?.clone();
-        let mapping = by.mapping(at, face)?;
+    pub fn new(by: &'a TexturedBy, (at, face): (usize, &Face), camera: &'a Camera) -> Option<Self> {
+        let texture = by.laid.on(at)?;
+        Some(Self { texture, mapping: by.mapping(at, face)?, camera, footprints: None })
+    }
+
+    /// The same, with all found that is the same wherever it is met.
+    pub fn in_advance(self) -> Self {
+        let Self { mapping, camera, .. } = &self;
         let sight = Ray { origin: camera.focal, along: camera.forward };
-        let footprints = camera
-            .eye
-            .is_none()
-            .then(|| SIDES.map(|pixels| mapping.footprint(camera, (&sight, 0.0), pixels)));
-        Some(Self { texture, mapping, camera: *camera, footprints })
+        let footprint = |pixels| mapping.footprint(camera, (&sight, 0.0), pixels);
+        let footprints = camera.eye.is_none().then(|| Box::new(SIDES.map(footprint)));
+        Self { footprints, ..self }
     }
 
     /// Associated RGBA of the texture where a ray of the lattice of `step` positions meets the face, at `depth`.
     pub fn at(&self, ray: &Ray, depth: f64, step: usize) -> Vec4 {
         let size = if step >= POSITIONS { 0 } else { 3 - step };
-        let footprint = self.footprints.map_or_else(
-            || self.mapping.footprint(&self.camera, (ray, depth), SIDES[size]),
+        let footprint = self.footprints.as_ref().map_or_else(
+            || self.mapping.footprint(self.camera, (ray, depth), SIDES[size]),
             |footprints| footprints[size],
         );
         self.texture.filtered(self.mapping.at(ray.at(depth)), &footprint)

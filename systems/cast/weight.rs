@@ -3,11 +3,13 @@
 use glam::DVec3;
 use hecs::{Or, World};
 
+use super::beams::Patch;
+use super::binned::Near;
+use super::projected::ProjectedFace;
 use super::slices;
 use super::targets::{Outlines, most_opened};
 use crate::components::{Classify, DepthCue, Sampling, Shaft, Surface, View, Voxelize};
 use crate::polygon::face::{Face, Faces};
-use crate::polygon::outline::edges;
 use crate::view::camera::Camera;
 use crate::view::extent::Extent;
 use crate::view::samples::{Layout, POSITIONS};
@@ -17,6 +19,11 @@ use crate::volume::scene_volumes::{Content, volumes, with_content};
 /// Bytes of a color of a block, and of the positions between in a block that is opened.
 const COLOR: u64 = 16;
 const FINE: u64 = COLOR * (POSITIONS * POSITIONS) as u64;
+/// C_A and C_G of an opened block.
+const EDGES: u64 = 2 * FINE / 4;
+
+/// Those of a face on a view, and of its place in a beam or two.
+const FACE: u64 = (size_of::<ProjectedFace>() + size_of::<Patch>() + 3 * size_of::<Near>()) as u64;
 
 /// Pairs of faces that are looked at for where they meet; with more of them all of the picture may be split.
 const MOST_PAIRS: usize = 1 << 22;
@@ -64,8 +71,9 @@ pub(crate) fn of(
     // A number, flags of rays and of splits for each block, and the flags of two levels while they are decided on.
     // C_A and C_G are free again before there is a frame, which is planned for beside them: the lesser of both is counted once.
     let free = u64::from(supersampled);
-    let always = blocks * ((colors - free) * COLOR + 4 + 2 + 1 + 2);
-    let opened = open * colors * FINE;
+    let faces: usize = traced.iter().map(|faces| faces.0.len()).sum();
+    let always = blocks * ((colors - free) * COLOR + 4 + 2 + 1 + 2) + faces as u64 * FACE;
+    let opened = open * (FINE + if supersampled { EDGES } else { 0 });
     let most = always + opened;
     Weight { most, part: (always as f64 + opened as f64 * seen) / most.max(1) as f64 }
 }
@@ -121,10 +129,8 @@ fn opened(traced: &[&Faces], camera: &Camera, layout: &Layout) -> Option<u64> {
         Some(())
     };
     let faces: Vec<&Face> = traced.iter().flat_map(|faces| faces.0.iter()).collect();
-    for outline in faces.iter().flat_map(|face| &face.outlines) {
-        for (p, q) in edges(outline) {
-            mark([p, q])?;
-        }
+    for (p, q) in faces.iter().flat_map(|face| face.outlines.edges()) {
+        mark([p, q])?;
     }
     meetings(&faces, &mut mark)?;
     let Outlines { across, crossed, .. } = &outlines;
@@ -142,9 +148,9 @@ fn opened(traced: &[&Faces], camera: &Camera, layout: &Layout) -> Option<u64> {
 /// Hands out where two faces may meet: the part of the line of their planes that lies in the boxes of both.
 fn meetings(faces: &[&Face], mut mark: impl FnMut([DVec3; 2]) -> Option<()>) -> Option<()> {
     let boxed = |face: &&Face| {
-        let vertices = face.outlines.iter().flatten();
+        let vertices = face.outlines.vertices();
         let ends = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        vertices.fold(ends, |[low, high], vertex| [low.min(*vertex), high.max(*vertex)])
+        vertices.fold(ends, |[low, high], vertex| [low.min(vertex), high.max(vertex)])
     };
     let mut boxes: Vec<_> = faces.iter().map(|face| (boxed(face), *face)).collect();
     boxes.sort_by(|a, b| a.0[0].x.total_cmp(&b.0[0].x));

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use crate::polygon::face::Face;
-use crate::polygon::outline::edges;
+use crate::polygon::outline::Rings;
 use crate::view::camera::Camera;
 use crate::view::ray::Ray;
 
@@ -14,7 +14,7 @@ pub(super) struct Traced {
     bent: Option<DAffine3>,
     center: DVec3,
     axes: [DVec3; 2],
-    outlines: Vec<Vec<[f64; 2]>>,
+    outlines: Rings<[f64; 2]>,
     /// The rows of pixels that it lies in, from the first to the last; infinite where it reaches behind the eye.
     rows: [f64; 2],
     pub opacity: f64,
@@ -30,12 +30,11 @@ impl Traced {
         entity: u32,
     ) -> Self {
         let axes = face.normal.any_orthonormal_pair();
-        let flat = |vertex: &DVec3| {
-            let from = *vertex - face.center;
+        let flat = |vertex: DVec3| {
+            let from = vertex - face.center;
             [from.dot(axes.0), from.dot(axes.1)]
         };
-        let outlines =
-            face.outlines.iter().map(|outline| outline.iter().map(flat).collect()).collect();
+        let outlines = face.outlines.map(flat);
         let Face { normal, center, .. } = *face;
         let rows = rows(face, camera);
         Self { normal, bent, center, axes: [axes.0, axes.1], outlines, rows, opacity, entity }
@@ -55,7 +54,7 @@ impl Traced {
         let crosses = |([ax, ay], [bx, by]): ([f64; 2], [f64; 2])| {
             (ay <= y) != (by <= y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
         };
-        let edges = self.outlines.iter().flat_map(|outline| edges(outline));
+        let edges = self.outlines.edges();
         let inside = edges.filter(|edge| crosses(*edge)).count() % 2 == 1;
         (depth.is_finite() && inside).then_some(depth)
     }
@@ -75,11 +74,11 @@ impl Traced {
 
 /// Between which heights in the window a face lies, pixels, with room for what is rounded.
 fn rows(face: &Face, camera: &Camera) -> [f64; 2] {
-    let vertices = || face.outlines.iter().flatten();
-    if vertices().any(|vertex| camera.depth(*vertex) < camera.nearest()) {
+    let vertices = || face.outlines.vertices();
+    if vertices().any(|vertex| camera.depth(vertex) < camera.nearest()) {
         return [f64::NEG_INFINITY, f64::INFINITY];
     }
-    let heights = vertices().map(|vertex| camera.project(*vertex).0.y);
+    let heights = vertices().map(|vertex| camera.project(vertex).0.y);
     let [low, high] = heights
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
     [low - 0.25, high + 0.25]

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::polygon::face::Face;
-use crate::polygon::outline;
 
 /// For each face, whether its normal has to be turned so that faces which share an edge look to the same side.
 ///
@@ -16,7 +15,7 @@ pub fn turned(faces: &[Face]) -> Vec<bool> {
     let mut edges: BTreeMap<[[u64; 3]; 2], Vec<(usize, bool)>> = BTreeMap::new();
     let mut of_face: Vec<Vec<([[u64; 3]; 2], bool)>> = Vec::with_capacity(faces.len());
     for (number, face) in faces.iter().enumerate() {
-        let of = face.outlines.iter().flat_map(|vertices| outline::edges(vertices));
+        let of = face.outlines.edges();
         let of: Vec<_> = of.map(|(a, b)| key(a, b)).collect();
         for &(edge, forward) in &of {
             edges.entry(edge).or_default().push((number, forward));

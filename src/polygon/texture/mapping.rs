@@ -117,7 +117,7 @@ fn corners(face: &Face, textured: &Textured) -> Result<[DVec3; 3], String> {
     if let Some(stated) = textured.corners {
         return Ok(stated.map(DVec3::from));
     }
-    match face.outlines.first().map(Vec::as_slice) {
+    match face.outlines.iter().next() {
         Some([first, second, .., last]) => Ok([*first, *second, *last]),
         _ => Err(
             "a polygon of fewer than 3 vertices has no place for a texture; state its `corners`"
