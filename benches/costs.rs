@@ -12,6 +12,7 @@ mod way;
 use gelray::components::{Ellipsoid, Mesh, Sampling, Surface};
 use gelray::measure::cost::{COLORS, FRAME, paper_costs};
 use gelray::measure::variants;
+use gelray::resolve::resolve;
 use gelray::scene::{EMBEDDED, Source};
 use gelray::schedule::Ran;
 use timed::{Spread, is_quick, on_threads};
@@ -175,6 +176,7 @@ fn triangles(name: &'static str, sampling: impl Fn(&mut Sampling)) -> Way {
         let surface = Surface { opacity: 0.4, specular: 0.0, ..Surface::default() };
         way.setting.world.spawn((mesh, surface));
     }
+    resolve(&mut way.setting.world).expect("what is left out is filled in");
     way.setting.run();
     way
 }

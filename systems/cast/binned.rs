@@ -29,45 +29,50 @@ pub(crate) struct Binned {
     near: Vec<Near>,
 }
 
-impl Binned {
-    /// Sorts faces, each with the positions that it may be met at, into beams.
-    pub fn new(faces: &[ProjectedFace], patches: &[Patch], beams: &Beams) -> Self {
-        let mut found: Vec<(u32, Near)> = Vec::with_capacity(faces.len() * 3 / 2);
-        let mut marks = None;
-        for (number, (face, patch)) in faces.iter().zip(patches).enumerate() {
-            let of =
-                |axis: usize| patch.first[axis] as usize / SIDE..=patch.last[axis] as usize / SIDE;
-            let (columns, rows) = (of(0), of(1));
-            let is_wide = columns.end() - columns.start() > 1 || rows.end() - rows.start() > 1;
-            let wide = is_wide.then(|| marks.get_or_insert_with(|| Wide::new(beams)));
-            let mut wide = wide.and_then(|wide| wide.mark(face, beams).then_some(wide));
-            for row in rows {
-                for column in columns.clone() {
-                    let whole =
-                        wide.as_ref().and_then(|wide| wide.side(face, [column, row], beams));
-                    if whole != Some(false) {
-                        let near = Near::new(number, patch, [column, row], whole.is_some());
-                        found.push(((row * beams.counts[0] + column) as u32, near));
-                    }
+/// The beams that faces are near to, each with the positions that it may be met at; the number of the first is `first`.
+pub(crate) fn near(
+    faces: &[ProjectedFace],
+    patches: &[Patch],
+    first: u32,
+    beams: &Beams,
+) -> Vec<(u32, Near)> {
+    let mut found = Vec::with_capacity(faces.len() * 3 / 2);
+    let mut marks = None;
+    for (number, (face, patch)) in (first..).zip(faces.iter().zip(patches)) {
+        let of = |axis: usize| patch.first[axis] as usize / SIDE..=patch.last[axis] as usize / SIDE;
+        let (columns, rows) = (of(0), of(1));
+        let is_wide = columns.end() - columns.start() > 1 || rows.end() - rows.start() > 1;
+        let wide = is_wide.then(|| marks.get_or_insert_with(|| Wide::new(beams)));
+        let mut wide = wide.and_then(|wide| wide.mark(face, beams).then_some(wide));
+        for row in rows {
+            for column in columns.clone() {
+                let whole = wide.as_ref().and_then(|wide| wide.side(face, [column, row], beams));
+                if whole != Some(false) {
+                    let near = Near::new(number, patch, [column, row], whole.is_some());
+                    found.push(((row * beams.counts[0] + column) as u32, near));
                 }
             }
-            if let Some(wide) = &mut wide {
-                wide.clear(patch, beams);
-            }
         }
-        Self::sorted(&found, beams.counts[0] * beams.counts[1])
+        if let Some(wide) = &mut wide {
+            wide.clear(patch, beams);
+        }
     }
+    found
+}
 
-    /// By their beams, of which there are so many, each in the order that they were found in.
-    fn sorted(found: &[(u32, Near)], beams: usize) -> Self {
+impl Binned {
+    /// Sorts what is near to beams, of which there are so many, by them, each in the order that it was found in.
+    pub fn new(found: &[Vec<(u32, Near)>], beams: usize) -> Self {
         let mut starts = vec![0_u32; beams + 1];
-        found.iter().for_each(|(beam, _)| starts[*beam as usize + 1] += 1);
+        found.iter().flatten().for_each(|(beam, _)| starts[*beam as usize + 1] += 1);
         for beam in 1..starts.len() {
             starts[beam] += starts[beam - 1];
         }
-        let Some((_, any)) = found.first() else { return Self { starts, near: Vec::new() } };
-        let (mut next, mut near) = (starts.clone(), vec![*any; found.len()]);
-        for (beam, found) in found {
+        let Some((_, any)) = found.iter().flatten().next() else {
+            return Self { starts, near: Vec::new() };
+        };
+        let (mut next, mut near) = (starts.clone(), vec![*any; starts[beams] as usize]);
+        for (beam, found) in found.iter().flatten() {
             let at = &mut next[*beam as usize];
             near[*at as usize] = *found;
             *at += 1;
@@ -82,13 +87,13 @@ impl Binned {
 }
 
 impl Near {
-    fn new(face: usize, patch: &Patch, beam: [usize; 2], whole: bool) -> Self {
+    fn new(face: u32, patch: &Patch, beam: [usize; 2], whole: bool) -> Self {
         let within = |axis: usize| {
             let first = (beam[axis] * SIDE) as u32;
             let [from, to] = [patch.first, patch.last].map(|end| end[axis]);
             [from.max(first) - first, to.min(first + SIDE as u32 - 1) - first].map(|n| n as u8)
         };
-        Self { face: face as u32, across: within(0), down: within(1), whole }
+        Self { face, across: within(0), down: within(1), whole }
     }
 }
 
@@ -234,7 +239,8 @@ mod tests {
             let seen = faces.iter().filter_map(|face| of(face, &|bounds| beams.patch(bounds)));
             let (patches, seen): (Vec<_>, Vec<_>) = seen.unzip();
             assert!(seen.len() < faces.len() - 40 || finest < 4, "some are between all rays");
-            let binned = Binned::new(&seen, &patches, &beams);
+            let found = near(&seen, &patches, 0, &beams);
+            let binned = Binned::new(&[found], beams.counts[0] * beams.counts[1]);
             // The rays of a beam in one row of positions.
             for (y, x) in (0..down)
                 .step_by(finest)

@@ -4,6 +4,7 @@
 //! The rays go side by side from sample to sample: all have theirs at the same depths. Where none meets gel or a polygon
 //! they go on together, and each stops on its own. What a ray gathers is what it would gather alone, in the same order.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
+#![allow(clippy::needless_range_loop, reason = "sixteen lanes at once, by their number")]
 
 use fearless_simd::Simd;
 use glam::DVec3;
@@ -109,6 +110,7 @@ impl Next {
     }
 
     /// The next polygons of the rays `passed`, which may have passed some, and of those that are not `open` any longer none.
+    #[inline(always)]
     fn after(
         &mut self,
         slabs: &Slabs,
@@ -116,22 +118,29 @@ impl Next {
         (passed, open): (Lanes, Lanes),
         gathered: &[Gathering; LANES],
     ) {
-        for lane in each(passed) {
+        for lane in each(passed | !open) {
             let ray = &gathered[lane];
             let next = || slabs.number(hits[ray.left[0] as usize].depth);
-            self.slabs[lane] = if ray.has_hits() { next() } else { i64::MAX };
+            let goes_on = open >> lane & 1 == 1 && ray.has_hits();
+            self.slabs[lane] = if goes_on { next() } else { i64::MAX };
         }
-        each(!open).for_each(|lane| self.slabs[lane] = i64::MAX);
-        self.least = self.slabs.iter().fold(i64::MAX, |least, slab| least.min(*slab));
+        self.least = i64::MAX;
+        for lane in 0..LANES {
+            self.least = self.least.min(self.slabs[lane]);
+        }
     }
 
     /// Which of `lanes` meet a polygon in slab `k`.
+    #[inline(always)]
     fn at(&self, k: i64, lanes: Lanes) -> Lanes {
         if k < self.least {
             return 0;
         }
-        let here = |lane: &usize| self.slabs[*lane] == k;
-        each(lanes).filter(here).fold(0, |set, lane| set | 1 << lane)
+        let mut here = 0;
+        for lane in 0..LANES {
+            here |= Lanes::from(self.slabs[lane] == k) << lane;
+        }
+        here & lanes
     }
 }
 

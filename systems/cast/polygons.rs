@@ -7,13 +7,14 @@ use glam::{DVec3, Vec4};
 use prefetch_index::prefetch_index;
 
 use super::appearance::Appearance;
-use super::beams::{Beams, Patch};
-use super::binned::{Binned, Near, Spread};
+use super::beams::Beams;
+use super::binned::{Near, Spread};
 use super::cue::Cue;
 use super::gathering::{Hit, Shaded};
 use super::lanes::{LANES, Lanes, Packet, each};
 use super::looks::{FEW, Look};
 use super::projected::ProjectedFace;
+use super::seen::SeenFaces;
 use super::targets::{Crossed, Outlines};
 use crate::components::Sampling;
 use crate::light::strength::LightStrength;
@@ -23,10 +24,9 @@ use crate::view::samples::Layout;
 /// Faces near a beam that are asked of memory before they are looked at.
 const AHEAD: usize = 3;
 
-/// Every polygon of a scene that rays of one view may meet, in the order of the scene, and for each beam those near it.
+/// Every polygon of a scene that rays of one view may meet.
 pub struct Polygons<'a> {
-    faces: Vec<ProjectedFace>,
-    binned: Binned,
+    faces: SeenFaces,
     beams: Beams,
     looks: Vec<Look<'a>>,
     /// Depths no further apart than this are one, world units.
@@ -87,18 +87,17 @@ impl Met {
 }
 
 impl<'a> Polygons<'a> {
-    /// Sorts the faces that rays may meet, each with the positions of those rays, into beams. Depths closer than `slack`
-    /// (world units) differ by rounding alone; `strengths` are those of the lights that the looks call shadowed.
+    /// The faces that rays may meet. Depths closer than `slack` (world units) differ by rounding alone; `strengths` are those
+    /// of the lights that the looks call shadowed.
     pub fn new(
-        (faces, patches): (Vec<ProjectedFace>, &[Patch]),
+        faces: SeenFaces,
         looks: Vec<Look<'a>>,
         beams: Beams,
         slack: f64,
         (camera, cue): (&'a Camera, Option<Cue>),
         strengths: &'a [Option<LightStrength>],
     ) -> Self {
-        let binned = Binned::new(&faces, patches, &beams);
-        Self { faces, binned, beams, looks, slack, cue, camera, strengths }
+        Self { faces, beams, looks, slack, cue, camera, strengths }
     }
 
     /// Whether rays meet no polygon.
@@ -123,7 +122,7 @@ impl<'a> Polygons<'a> {
                 each(left).filter(is_here).fold(0, |set, lane| set | 1 << lane)
             };
             left &= !here;
-            self.meet_near(self.binned.near(beam), packet, here, &mut met.found);
+            self.meet_near(self.faces.near(beam), packet, here, &mut met.found);
         }
         if met.found.is_empty() {
             return met.hits.clear();
@@ -144,9 +143,9 @@ impl<'a> Polygons<'a> {
         let spread = Spread::of(each(here), |lane| self.beams.place(packet.position(lane)));
         for (number, met) in near.iter().enumerate() {
             // Faces near one another in a beam are not in memory, and each is met by few rays.
-            let ahead = near.get(number + AHEAD).map_or(0, |ahead| ahead.face as usize);
-            prefetch_index(&self.faces, ahead);
-            let face = &self.faces[met.face as usize];
+            let (part, ahead) = self.faces.part(near.get(number + AHEAD).unwrap_or(met).face);
+            prefetch_index(part, ahead);
+            let face = self.faces.get(met.face);
             for lane in each(spread.met(met)) {
                 let window = Camera::window(packet.position(lane));
                 if met.whole || face.holds(window) {
@@ -176,13 +175,13 @@ impl<'a> Polygons<'a> {
     /// How a face looks, by its number among those that rays may meet.
     #[inline]
     fn look<R>(&self, face: u32, to: impl FnOnce(&Appearance<'_>) -> R) -> R {
-        let ProjectedFace { of: [entity, at], normal, .. } = self.faces[face as usize];
+        let ProjectedFace { of: [entity, at], normal, .. } = *self.faces.get(face);
         self.looks[entity as usize].with((at as usize, normal), to)
     }
 
     /// Whether nothing is seen through a hit.
     pub(crate) fn is_opaque(&self, hit: &Hit) -> bool {
-        let [entity, at] = self.faces[hit.face as usize].of;
+        let [entity, at] = self.faces.get(hit.face).of;
         self.looks[entity as usize].is_opaque(at as usize)
     }
 

@@ -12,8 +12,8 @@ use super::march::Slabs;
 use super::media::{Media, Nothing};
 use super::medium::{Medium, Source};
 use super::polygons::Polygons;
-use super::projected::ProjectedFace;
 use super::projection::Projections;
+use super::seen::SeenFaces;
 use super::several::{AnyMedium, Several};
 use super::shaft::Dust;
 use super::values::Values;
@@ -101,21 +101,11 @@ fn polygons<'a>(
     beams: Beams,
     cue: Option<Cue>,
 ) -> Polygons<'a> {
-    let patch = |bounds| beams.patch(bounds);
-    let (mut faces, mut patches) = (Vec::new(), Vec::new());
-    for (entity, traced) in inputs.polygons.iter().enumerate() {
-        let seen =
-            |(at, face)| ProjectedFace::new(face, [entity, at].map(|n| n as u32), camera, patch);
-        let seen = traced.faces.0.iter().enumerate().filter_map(seen);
-        seen.for_each(|(patch, face)| {
-            faces.push(face);
-            patches.push(patch);
-        });
-    }
+    let faces = SeenFaces::new(&inputs.polygons, camera, &beams);
     let looks = inputs.polygons.iter().map(|traced| Look::new(traced, inputs, camera)).collect();
     // What rounding may do to the depth of a plane, in a scene of that size so far from the world's origin.
     let slack = 1e-9 * inputs.extent.radius() + 1e-14 * inputs.extent.center().abs().max_element();
-    Polygons::new((faces, &patches), looks, beams, slack, (camera, cue), &inputs.strengths)
+    Polygons::new(faces, looks, beams, slack, (camera, cue), &inputs.strengths)
 }
 
 /// What the volumes of a view have in common.
