@@ -65,12 +65,7 @@ impl Lighting<'_> {
     pub fn sent<const N: usize>(&self, colors: &Vectors<N>, normals: &Vectors<N>) -> Vectors<N> {
         let mut sent = [[0.0; N]; 3];
         for lamp in self.lamps {
-            let amounts = amounts(lamp, normals, &self.how);
-            for (channel, light) in lamp.light.to_array().into_iter().enumerate() {
-                for at in 0..N {
-                    sent[channel][at] += colors[channel][at] * light * amounts[at];
-                }
-            }
+            self.add(lamp, (colors, normals), &[1.0; N], &mut sent);
         }
         for channel in 0..3 {
             for at in 0..N {
@@ -78,6 +73,23 @@ impl Lighting<'_> {
             }
         }
         sent
+    }
+
+    /// Adds what they send of one of the lights, of which so much comes `through` to each.
+    #[inline(always)]
+    pub fn add<const N: usize>(
+        &self,
+        lamp: &Lamp,
+        (colors, normals): (&Vectors<N>, &Vectors<N>),
+        through: &[f32; N],
+        sent: &mut Vectors<N>,
+    ) {
+        let amounts = amounts(lamp, normals, &self.how);
+        for (channel, light) in lamp.light.to_array().into_iter().enumerate() {
+            for at in 0..N {
+                sent[channel][at] += colors[channel][at] * light * amounts[at] * through[at];
+            }
+        }
     }
 }
 

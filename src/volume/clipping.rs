@@ -12,6 +12,34 @@ pub struct Cut {
     index_to_world: DAffine3,
     /// The most over which the opacity falls: the largest spacing, world units.
     widest: f64,
+    /// No voxel is longer than this along any unit vector, world units.
+    longest: f64,
+    /// The stated planes.
+    planes: Vec<CutFace>,
+    /// The sides of the box.
+    sides: Vec<CutFace>,
+}
+
+/// How far inside what is left a voxel lies by one plane or side, world units: `inside − along · index`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct CutFace {
+    inside: f64,
+    along: DVec3,
+}
+
+impl CutFace {
+    /// That of the plane at `place` along a unit vector out of what is left.
+    fn new(normal: DVec3, place: f64, index_to_world: &DAffine3) -> Self {
+        let inside = place - normal.dot(index_to_world.translation);
+        Self { inside, along: index_to_world.matrix3.transpose() * normal }
+    }
+
+    /// The least of a block of voxels, by its first and last.
+    #[inline]
+    fn least(&self, first: DVec3, last: DVec3) -> f64 {
+        let most = (self.along * first).max(self.along * last);
+        self.inside - (most.x + most.y + most.z)
+    }
 }
 
 /// How a point lies to the part of a cut that is nearest to it.
@@ -26,6 +54,9 @@ pub struct Section {
 }
 
 impl Section {
+    /// That of a point which no cut is near.
+    pub(crate) const NONE: Self = Self { inside: f64::INFINITY, normal: DVec3::ZERO, width: 1.0 };
+
     /// The part of a slab around the point that is left, 0..=1; `way` is the ray's way through the slab, world units. The cut
     /// counts as steep where it is met flatly: it is never spread over more than a voxel.
     #[must_use]
@@ -66,7 +97,33 @@ impl Cut {
     #[must_use]
     pub fn new(clip: &Clip, grid: &Grid) -> Self {
         let widest = grid.spacing().max_element();
-        Self { clip: clip.clone(), index_to_world: grid.index_to_world, widest }
+        let m = grid.index_to_world.matrix3;
+        // The largest sum of a row is at least the largest stretch, and of axes at right angles it is.
+        let squares = m.transpose() * m;
+        let rows =
+            [squares.x_axis, squares.y_axis, squares.z_axis].map(|row| row.abs().element_sum());
+        let longest = rows.into_iter().fold(0.0, f64::max).sqrt();
+        let plane = |&[a, b, c, d]: &[f64; 4]| {
+            let normal = DVec3::new(a, b, c);
+            CutFace::new(normal / normal.length(), d / normal.length(), &grid.index_to_world)
+        };
+        let sides = clip.r#box.iter().flat_map(|&[p, q]| {
+            let (low, high) = (DVec3::from(p).min(q.into()), DVec3::from(p).max(q.into()));
+            (0..3).flat_map(move |axis| {
+                let across = DVec3::AXES[axis];
+                [(across, low[axis]), (-across, -high[axis])]
+            })
+        });
+        Self {
+            clip: clip.clone(),
+            index_to_world: grid.index_to_world,
+            widest,
+            longest,
+            planes: clip.planes.iter().map(plane).collect(),
+            sides: sides
+                .map(|(normal, place)| CutFace::new(normal, place, &grid.index_to_world))
+                .collect(),
+        }
     }
 
     /// What is left of the `extent` voxels from `first` on; `Part` where a bounding sphere cannot tell.
@@ -87,6 +144,25 @@ impl Cut {
     #[must_use]
     pub fn is_deeper(&self, first: [usize; 3], extent: [usize; 3], deep: f64) -> bool {
         self.depths(first, extent)[0] > deep * self.widest * (1.0 + 1e-9)
+    }
+
+    /// Whether the block of voxels from one to another lies so deep under the cut that nowhere in it a [section](Self::at)
+    /// [takes anything](Section::left) from a slab or [turns](Section::turned) a normal, which it does as deep as `deep` voxels
+    /// and one more.
+    #[must_use]
+    #[inline]
+    pub fn is_whole(&self, [first, last]: [[usize; 3]; 2], deep: f64) -> bool {
+        let (first, last) = (first.map(|n| n as f64).into(), last.map(|n| n as f64).into());
+        // A little deeper, for what is rounded on the way.
+        let enough = (deep + 1.0) * self.longest * (1.0 + 1e-6);
+        let mut inside = self.sides.is_empty();
+        for side in &self.sides {
+            inside |= side.least(first, last) > enough;
+        }
+        for plane in &self.planes {
+            inside &= plane.least(first, last) > enough;
+        }
+        inside
     }
 
     /// Between which depths under the cut a block of voxels lies, by a sphere around it.
@@ -191,7 +267,7 @@ mod tests {
             r#box: Some([[0.0, 0.0, -12.0], [9.5, 8.0, 0.0]]),
         };
         let cut = Cut::new(&clip, &grid());
-        let mut seen = [0; 3];
+        let (mut seen, mut whole) = ([0; 3], 0);
         for (x, y, z) in (0..720).map(|i| (i % 18, i / 18 % 8, i / 144 * 2)) {
             let left = cut.left([x, y, z], [2; 3]);
             seen[left as usize] += 1;
@@ -203,7 +279,16 @@ mod tests {
                     Left::Part => assert!((0.0..=1.0).contains(&factor)),
                 }
             }
+            if cut.is_whole([[x, y, z], [x + 1, y + 1, z + 1]], 0.5) {
+                for at in 0..8 {
+                    let section = cut.under([x + (at & 1), y + (at >> 1 & 1), z + (at >> 2)]);
+                    assert_eq!(section.left(DVec3::splat(9.0)), 1.0);
+                    assert_eq!(section.turned(Vec3::X, 0.5), Vec3::X);
+                }
+                whole += 1;
+            }
         }
+        assert!((50..600).contains(&whole), "{whole}");
         assert!(seen.iter().all(|&n| n > 0), "{seen:?}");
     }
 }

@@ -1,17 +1,20 @@
 //! The scalars as a field: value and gradient anywhere between voxels, in numbers of the scanner's own type.
 //!
 //! A filter is four weights along each axis, and its derivative four slopes, so that one walk over 4³ voxels gives all four
-//! numbers: rows of four voxels at once, then columns, then slices. A product is rounded before it is added to, so that no
-//! bit depends on the set of instructions.
+//! numbers: rows of four voxels at once, of four places side by side, then columns, then slices. A product is rounded before it
+//! is added to, so that no bit depends on the set of instructions.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+mod fours;
+
 use fearless_simd::{Level, dispatch};
-use glam::{Mat3, Vec3};
+use glam::Mat3;
 
 use super::filter::Taps;
 use super::grid::{Grid, Scalar, Scalars};
 use crate::components::Filter;
 use crate::with_scalars;
+pub use fours::{FOUR, SampledFour};
 
 /// Scalars on a grid, and what is between them.
 #[derive(Clone, Copy)]
@@ -41,12 +44,21 @@ pub struct Sampled {
     pub gradient: [f32; 3],
 }
 
-/// The four voxels of an axis that a place is made of: steps in the array, and what each counts.
+/// The four voxels of an axis that a place is made of: steps in the array, and the way from the second to the third.
 struct Axis {
     at: [usize; 4],
-    taps: Taps,
-    /// Whether all four are there, one step after the other.
-    whole: bool,
+    part: f32,
+    /// Whether the grid ends before the first or before the last of them.
+    ends: [bool; 2],
+}
+
+impl Axis {
+    /// What each of them counts.
+    #[inline(always)]
+    fn taps(&self, filter: Filter) -> Taps {
+        let taps = Taps::new(filter, self.part);
+        if self.ends == [false; 2] { taps } else { taps.ended(self.ends) }
+    }
 }
 
 impl<'a> Field<'a> {
@@ -59,13 +71,21 @@ impl<'a> Field<'a> {
 
     /// Fills in what the field is at some spots, which count as the nearest inside the grid.
     pub fn sample(&self, level: Level, spots: &[Spot], made: &mut [Sampled]) {
-        with_scalars!(self.scalars, values => {
-            if self.filter == Filter::Linear {
-                dispatch!(level, _simd => self.sample_all::<_, true>(values, spots, made));
-            } else {
-                dispatch!(level, _simd => self.sample_all::<_, false>(values, spots, made));
-            }
-        });
+        for (spots, made) in spots.chunks(FOUR).zip(made.chunks_mut(FOUR)) {
+            let mut four = [SampledFour::default()];
+            self.sample_fours(level, spots, &mut four);
+            made.iter_mut().enumerate().for_each(|(at, made)| *made = four[0].one(at));
+        }
+    }
+
+    /// Fills in what the field is at some spots, four by four: to the last bit what [`sample`](Self::sample) finds. Behind the
+    /// last of the spots its four are filled up with anything.
+    pub fn sample_fours(&self, level: Level, spots: &[Spot], made: &mut [SampledFour]) {
+        if self.filter == Filter::Linear {
+            self.fours::<true>(level, spots, made);
+        } else {
+            self.fours::<false>(level, spots, made);
+        }
     }
 
     /// Fills in the values of the field at some spots, to the last bit those that [`sample`](Self::sample) finds.
@@ -87,35 +107,17 @@ impl<'a> Field<'a> {
         made: &mut [f32],
     ) {
         for (spot, made) in spots.iter().zip(made) {
-            let x = self.axis::<LINEAR>(spot, 0, 1);
-            let y = self.axis::<LINEAR>(spot, 1, self.size[0]);
-            let z = self.axis::<LINEAR>(spot, 2, self.size[0] * self.size[1]);
-            *made = gather_value::<T, LINEAR>(values, [&x, &y, &z]);
+            let [along_x, along_y, along_z] = self.strides();
+            let x = self.axis(spot, 0, along_x);
+            let y = self.axis(spot, 1, along_y);
+            let z = self.axis(spot, 2, along_z);
+            *made = gather_value::<T, LINEAR>(values, self.filter::<LINEAR>(), [&x, &y, &z]);
         }
     }
 
+    /// The voxels of an axis that a spot is made of.
     #[inline(always)]
-    fn sample_all<T: Scalar, const LINEAR: bool>(
-        &self,
-        values: &[T],
-        spots: &[Spot],
-        made: &mut [Sampled],
-    ) {
-        for (spot, made) in spots.iter().zip(made) {
-            // One by one: an array of them that a closure makes is written in pieces and waited for as a whole.
-            let x = self.axis::<LINEAR>(spot, 0, 1);
-            let y = self.axis::<LINEAR>(spot, 1, self.size[0]);
-            let z = self.axis::<LINEAR>(spot, 2, self.size[0] * self.size[1]);
-            let (value, [x, y, z]) = gather::<T, LINEAR>(values, [&x, &y, &z]);
-            let gradient = self.to_world.x_axis * x + self.to_world.y_axis * y;
-            let gradient = gradient + self.to_world.z_axis * z;
-            *made = Sampled { value, gradient: finite(gradient).to_array() };
-        }
-    }
-
-    /// The voxels of an axis that a spot is made of, and whether they lie side by side.
-    #[inline(always)]
-    fn axis<const LINEAR: bool>(&self, spot: &Spot, axis: usize, stride: usize) -> Axis {
+    fn axis(&self, spot: &Spot, axis: usize, stride: usize) -> Axis {
         let last = self.size[axis] - 1;
         // The last plane of voxels is the end of the last cell.
         let (cell, part) = if spot.cell[axis] >= last {
@@ -123,47 +125,38 @@ impl<'a> Field<'a> {
         } else {
             (spot.cell[axis], spot.part[axis])
         };
-        // Of a linear field nothing is asked of the filter at any sample.
-        let taps = Taps::new(if LINEAR { Filter::Linear } else { self.filter }, part);
         let ends = [cell == 0, cell + 2 > last];
         if ends[0] || ends[1] {
             let before = cell.saturating_sub(1);
             let at = [before, cell, cell + 1, (cell + 2).min(last)].map(|voxel| voxel * stride);
-            return Axis { at, taps: taps.ended(ends), whole: false };
+            return Axis { at, part, ends };
         }
         let first = (cell - 1) * stride;
         let at = [first, first + stride, first + 2 * stride, first + 3 * stride];
-        Axis { at, taps, whole: true }
+        Axis { at, part, ends }
     }
-}
 
-/// The 4³ voxels around a spot, x fastest.
-type Block = [[[f32; 4]; 4]; 4];
-
-/// The voxels that a spot is made of. Of a linear field, those that count for nothing are not looked at.
-///
-/// In plain arrays: a row then is one widening load, where vector types are put together from pieces.
-#[inline(always)]
-fn block<T: Scalar, const LINEAR: bool>(values: &[T], [x, y, z]: [&Axis; 3]) -> Block {
-    let mut block = [[[0.0; 4]; 4]; 4];
-    for (k, slice) in block.iter_mut().enumerate() {
-        for (j, made) in slice.iter_mut().enumerate() {
-            if !LINEAR || is_inner(j) || is_inner(k) {
-                *made = row(values, x, z.at[k] + y.at[j]);
-            }
-        }
+    /// Steps in the array from a voxel to the next on each axis.
+    #[inline(always)]
+    fn strides(&self) -> [usize; 3] {
+        [1, self.size[0], self.size[0] * self.size[1]]
     }
-    block
+
+    /// What is asked of the filter; of a linear field nothing at any sample.
+    #[inline(always)]
+    fn filter<const LINEAR: bool>(&self) -> Filter {
+        if LINEAR { Filter::Linear } else { self.filter }
+    }
 }
 
 /// Four voxels of the row that begins at `first`.
 #[inline(always)]
-fn row<T: Scalar>(values: &[T], x: &Axis, first: usize) -> [f32; 4] {
-    if x.whole {
+fn row<T: Scalar>(values: &[T], x: &Axis, first: usize) -> [T; 4] {
+    if x.ends == [false; 2] {
         let four = &values[first + x.at[0]..][..4];
-        [four[0].value(), four[1].value(), four[2].value(), four[3].value()]
+        [four[0], four[1], four[2], four[3]]
     } else {
-        x.at.map(|at| values[first + at].value())
+        x.at.map(|at| values[first + at])
     }
 }
 
@@ -183,55 +176,26 @@ fn add(row: [f32; 4], weight: f32, sum: [f32; 4]) -> [f32; 4] {
     made
 }
 
-/// The value, and the slopes per voxel.
-#[inline(always)]
-fn gather<T: Scalar, const LINEAR: bool>(values: &[T], axes: [&Axis; 3]) -> (f32, [f32; 3]) {
-    let (block, [x, y, z]) = (block::<T, LINEAR>(values, axes), axes);
-    // Differences from a voxel of the cell: where nothing changes, no rounding makes a slope.
-    let base = block[1][1][1];
-    let inner = |tap: usize| !LINEAR || is_inner(tap);
-    let (mut sum, mut along_y, mut along_z) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-    for (k, slice) in block.iter().enumerate() {
-        let (mut row_sum, mut row_slope) = ([0.0; 4], [0.0; 4]);
-        for (j, row) in slice.iter().enumerate() {
-            let row = row.map(|value| value - base);
-            if inner(j) {
-                row_sum = add(row, y.taps.weights[j], row_sum);
-            }
-            if inner(k) {
-                row_slope = add(row, y.taps.slopes[j], row_slope);
-            }
-        }
-        if inner(k) {
-            sum = add(row_sum, z.taps.weights[k], sum);
-            along_y = add(row_slope, z.taps.weights[k], along_y);
-        }
-        along_z = add(row_sum, z.taps.slopes[k], along_z);
-    }
-    let Taps { weights, slopes } = &x.taps;
-    let gradient = [
-        across(sum, slopes, false),
-        across(along_y, weights, LINEAR),
-        across(along_z, weights, LINEAR),
-    ];
-    (base + across(sum, weights, LINEAR), gradient)
-}
-
 /// The value alone.
 #[inline(always)]
-fn gather_value<T: Scalar, const LINEAR: bool>(values: &[T], [x, y, z]: [&Axis; 3]) -> f32 {
+fn gather_value<T: Scalar, const LINEAR: bool>(
+    values: &[T],
+    filter: Filter,
+    [x, y, z]: [&Axis; 3],
+) -> f32 {
+    let weights = [x.taps(filter).weights, y.taps(filter).weights, z.taps(filter).weights];
     let base = values[z.at[1] + y.at[1] + x.at[1]].value();
     let inner = |tap: usize| !LINEAR || is_inner(tap);
     let mut sum = [0.0; 4];
     for k in (0..4).filter(|&k| inner(k)) {
         let mut row_sum = [0.0; 4];
         for j in (0..4).filter(|&j| inner(j)) {
-            let row = row(values, x, z.at[k] + y.at[j]).map(|value| value - base);
-            row_sum = add(row, y.taps.weights[j], row_sum);
+            let row = row(values, x, z.at[k] + y.at[j]).map(|value| value.value() - base);
+            row_sum = add(row, weights[1][j], row_sum);
         }
-        sum = add(row_sum, z.taps.weights[k], sum);
+        sum = add(row_sum, weights[2][k], sum);
     }
-    base + across(sum, &x.taps.weights, LINEAR)
+    base + across(sum, &weights[0], LINEAR)
 }
 
 /// A row of numbers, each by what it counts; of a linear field the two in the middle.
@@ -239,13 +203,6 @@ fn gather_value<T: Scalar, const LINEAR: bool>(values: &[T], [x, y, z]: [&Axis; 
 fn across(row: [f32; 4], taps: &[f32; 4], inner: bool) -> f32 {
     let middle = row[1] * taps[1] + row[2] * taps[2];
     if inner { middle } else { (row[0] * taps[0] + row[3] * taps[3]) + middle }
-}
-
-#[inline(always)]
-fn finite(gradient: Vec3) -> Vec3 {
-    // One test for all three: 0 times a number is 0, times anything else NaN.
-    let probe = gradient * 0.0;
-    if probe.x + probe.y + probe.z == 0.0 { gradient } else { Vec3::ZERO }
 }
 
 #[cfg(test)]

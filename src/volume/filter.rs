@@ -1,52 +1,94 @@
 //! Reconstruction along one axis: what each of four voxels counts for a value between them, and for its slope.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use crate::components::Filter;
+
+/// A number, or several side by side.
+pub(crate) trait Amount:
+    Copy
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Add<f32, Output = Self>
+    + Sub<f32, Output = Self>
+    + Mul<f32, Output = Self>
+    + Div<f32, Output = Self>
+{
+}
+
+impl<V> Amount for V where
+    V: Copy
+        + Neg<Output = V>
+        + Add<Output = V>
+        + Sub<Output = V>
+        + Mul<Output = V>
+        + Add<f32, Output = V>
+        + Sub<f32, Output = V>
+        + Mul<f32, Output = V>
+        + Div<f32, Output = V>
+{
+}
 
 /// What the voxels before, at, behind and two behind the first of a cell count at a place in the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Taps {
+pub(crate) struct Taps<V = f32> {
     /// For the value.
-    pub weights: [f32; 4],
+    pub weights: [V; 4],
     /// For its slope, per voxel.
-    pub slopes: [f32; 4],
+    pub slopes: [V; 4],
 }
 
-impl Taps {
+impl<V: Amount> Taps<V> {
     /// Those of a filter at `t` of the way through a cell, 0..=1.
     ///
     /// The slopes are those of the weights, but for linear reconstruction: there they interpolate the central differences
     /// at the voxels, as the paper's gradients are.
     #[must_use]
     #[inline(always)]
-    pub fn new(filter: Filter, t: f32) -> Self {
-        let s = 1.0 - t;
+    pub fn new(filter: Filter, t: V) -> Self {
+        let s = -t + 1.0;
         match filter {
             Filter::Linear => {
-                Self { weights: [0.0, s, t, 0.0], slopes: [-0.5 * s, -0.5 * t, 0.5 * s, 0.5 * t] }
+                let zero = t * 0.0;
+                Self { weights: [zero, s, t, zero], slopes: [s * -0.5, t * -0.5, s * 0.5, t * 0.5] }
             }
             Filter::Cubic | Filter::Interpolating => {
                 let (tt, ss) = (t * t, s * s);
-                let weight = |a: f32, aa: f32| (aa * (0.5 * a - 1.0)) + 2.0 / 3.0;
-                let slope = |a: f32, aa: f32| 1.5 * aa - 2.0 * a;
                 Self {
-                    weights: [ss * s / 6.0, weight(t, tt), weight(s, ss), tt * t / 6.0],
-                    slopes: [-0.5 * ss, slope(t, tt), -slope(s, ss), 0.5 * tt],
+                    weights: [
+                        ss * s / 6.0,
+                        tt * (t * 0.5 - 1.0) + 2.0 / 3.0,
+                        ss * (s * 0.5 - 1.0) + 2.0 / 3.0,
+                        tt * t / 6.0,
+                    ],
+                    slopes: [ss * -0.5, tt * 1.5 - t * 2.0, -(ss * 1.5 - s * 2.0), tt * 0.5],
                 }
             }
             Filter::CatmullRom => {
-                let outer = |a: f32, b: f32| -0.5 * a * (b * b);
-                let inner = |a: f32| (1.5 * a - 2.5) * (a * a) + 1.0;
-                let inner_slope = |a: f32| (4.5 * a - 5.0) * a;
-                let outer_slope = |a: f32| (1.5 * a - 1.0) * a;
+                let (tt, ss) = (t * t, s * s);
                 Self {
-                    weights: [outer(t, s), inner(t), inner(s), outer(s, t)],
-                    slopes: [-outer_slope(s), inner_slope(t), -inner_slope(s), outer_slope(t)],
+                    weights: [
+                        t * -0.5 * ss,
+                        (t * 1.5 - 2.5) * tt + 1.0,
+                        (s * 1.5 - 2.5) * ss + 1.0,
+                        s * -0.5 * tt,
+                    ],
+                    slopes: [
+                        -((s * 1.5 - 1.0) * s),
+                        (t * 4.5 - 5.0) * t,
+                        -((s * 4.5 - 5.0) * s),
+                        (t * 1.5 - 1.0) * t,
+                    ],
                 }
             }
         }
     }
+}
 
+impl Taps {
     /// Those where the grid ends: a voxel that is not there continues its two neighbours in a straight line.
     #[must_use]
     #[inline]

@@ -3,9 +3,9 @@
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, Vec4};
 
-use super::lanes::LANES;
+use super::lanes::{LANES, Lanes, each};
 use crate::view::composite::{Gathered, recolor, thicken};
-use crate::view::walk::{FRACTION_BITS, Tile, part};
+use crate::view::walk::{FRACTION_BITS, PLACE_BITS, Tile, part};
 use crate::volume::field::{Field, Sampled, Spot};
 
 /// Halvings of a stretch that holds a crossing, at the most: each is at least as good as the middle of the last two.
@@ -138,6 +138,36 @@ pub fn spot(place: [i64; 3]) -> Spot {
     let cell = place.map(|place| (place >> FRACTION_BITS).max(0) as usize);
     let part = place.map(|place| part(place.max(0) & ((1 << FRACTION_BITS) - 1)));
     Spot { cell, part }
+}
+
+/// The spots of some rays of a tile at sample `k`, in their order: to the last bit what [`spot`] gives of each.
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#[inline(always)]
+pub fn spots_of<'a>(
+    tile: &Tile,
+    (k, lanes): (i64, Lanes),
+    made: &'a mut [Spot; LANES],
+) -> &'a [Spot] {
+    let steps = k.wrapping_sub(tile.middle);
+    let (mut cells, mut parts) = ([[0; LANES]; 3], [[0.0; LANES]; 3]);
+    for axis in 0..3 {
+        let (at, step) = (&tile.at[axis], &tile.step[axis]);
+        for lane in 0..LANES {
+            let place = at[lane].wrapping_add(step[lane].wrapping_mul(steps)).max(0);
+            let way = place >> (FRACTION_BITS - PLACE_BITS) & ((1 << PLACE_BITS) - 1);
+            cells[axis][lane] = (place >> FRACTION_BITS) as usize;
+            parts[axis][lane] = way as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32);
+        }
+    }
+    let mut count = 0;
+    for lane in each(lanes) {
+        made[count] = Spot {
+            cell: [cells[0][lane], cells[1][lane], cells[2][lane]],
+            part: [parts[0][lane], parts[1][lane], parts[2][lane]],
+        };
+        count += 1;
+    }
+    &made[..count]
 }
 
 /// The index of a place, in voxels.

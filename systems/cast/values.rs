@@ -12,18 +12,16 @@ use super::integrated::{self, Ends};
 use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
 use super::window::{Cells, Window};
+use look::SampledRays;
 use crate::light::shading::{Lamp, Lamps, Reflectance};
 use crate::light::strength::LightStrength;
 use crate::view::walk::{FRACTION_BITS, Tile};
 use crate::volume::classification::{Classifier, SharpContour};
 use crate::volume::clipping::Cut;
-use crate::volume::field::{Field, Sampled, Spot};
+use crate::volume::field::{FOUR, Field, SampledFour};
 use crate::volume::gradients::normal;
 use crate::volume::grid::Grid;
 use crate::volume::pyramid::PyramidSlices;
-
-/// So many samples or fewer are looked at in half of the time.
-const HALF: usize = LANES / 2;
 
 /// The scalars of one volume, and how they look.
 pub struct Values<'a> {
@@ -240,40 +238,26 @@ impl Source for Values<'_> {
     ) -> Lanes {
         let (level, fade) = (simd.level(), fade.unwrap_or(1.0));
         let met = self.near(tile, (k, lanes), crossings.reach);
-        let mut sampled = [Sampled::default(); LANES];
-        let mut spots = [Spot::default(); LANES];
-        let middles = each(met).map(|lane| spot(tile.at_sample(lane, k)));
-        let found = spots.iter_mut().zip(middles).map(|(made, spot)| *made = spot).count();
-        if self.has_gel {
-            self.field.sample(level, &spots[..found], &mut sampled);
-        } else {
-            let mut values = [0.0; LANES];
-            self.field.values(level, &spots[..found], &mut values);
-            sampled.iter_mut().zip(values).for_each(|(sampled, value)| sampled.value = value);
-        }
+        let mut sampled = [SampledFour::default(); LANES / FOUR];
+        let rays = SampledRays { tile, k, lanes: met, fade };
         let mut slabs = [[0.0; 2]; LANES];
         if self.looks_around {
             slabs = integrated::ends((&self.field, level), tile, (k, met), &mut crossings.ends);
         }
-        if !self.has_gel {
-            each(met).for_each(|lane| seen[lane] = Vec4::ZERO);
-        } else if self.is_plain() {
-            match sampled.first_chunk::<HALF>() {
-                Some(half) if found <= HALF => {
-                    simd.vectorize(|| self.look_at_all(half, (met, fade), seen));
-                }
-                _ => simd.vectorize(|| self.look_at_all(&sampled, (met, fade), seen)),
-            }
-        } else {
-            for (lane, sampled) in each(met).zip(&sampled) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.see(level, &rays, &mut sampled, seen),
+        );
+        let one = |at: usize| sampled[at / FOUR].one(at % FOUR);
+        if self.integrated {
+            for (at, lane) in each(met).enumerate() {
                 let slab = Ends { values: slabs[lane], ratio: ratios[lane] };
-                let slab = self.integrated.then_some(slab);
-                seen[lane] = self.look((sampled, slab), || self.world(tile, lane, k), fade);
+                seen[lane] = self.look((&one(at), Some(slab)), || self.world(tile, lane, k), fade);
             }
         }
         if !self.surfaces.is_empty() {
             let capped = self.is_capped();
-            for (lane, sampled) in each(met).zip(&sampled) {
+            for (at, lane) in each(met).enumerate() {
                 let stretch = Stretch::of(tile, lane, k);
                 crossings.bare[lane] = seen[lane];
                 crossings.met.clear();
@@ -282,7 +266,7 @@ impl Source for Values<'_> {
                     self.close((level, fade), at, (lane, k), &mut crossings.met);
                 }
                 let slab = (&mut seen[lane], ratios[lane], &mut crossings.met);
-                let values = [slabs[lane][0], sampled.value, slabs[lane][1]];
+                let values = [slabs[lane][0], one(at).value, slabs[lane][1]];
                 crossings.sheets[lane] = self.cross(level, fade, (&stretch, values), slab);
             }
         }

@@ -31,14 +31,10 @@ impl Classifier {
         gradients: &[[f32; N]; 3],
     ) -> [f32; N] {
         let f = values.map(f64::from);
-        let mut gg = [0.0; N];
-        for at in 0..N {
-            gg[at] = square([gradients[0][at], gradients[1][at], gradients[2][at]]);
-        }
         let alphas = match &self.how {
-            How::Contours(contours) => contours.opacities(&f, &gg),
-            How::Regions(regions) => regions.opacities(&f, &gg),
-            How::Transfer(transfer) => transfer.opacities(&f, &gg),
+            How::Contours(contours) => contours.opacities(&f, &squares(gradients)),
+            How::Regions(regions) => regions.opacities(&f, &squares(gradients)),
+            How::Transfer(transfer) => transfer.opacities(&f, gradients),
             How::Mixture(mixture) => f.map(|f| mixture.opacity(f)),
         };
         let mut made = [0.0; N];
@@ -48,6 +44,16 @@ impl Classifier {
         }
         made
     }
+}
+
+/// [`square`] of `N` gradients.
+#[inline(always)]
+fn squares<const N: usize>(gradients: &[[f32; N]; 3]) -> Row<N> {
+    let mut made = [0.0; N];
+    for at in 0..N {
+        made[at] = square([gradients[0][at], gradients[1][at], gradients[2][at]]);
+    }
+    made
 }
 
 impl Contours {
@@ -73,11 +79,11 @@ impl Contours {
 
 impl Transfer {
     #[inline(always)]
-    fn opacities<const N: usize>(&self, f: &Row<N>, gg: &Row<N>) -> Row<N> {
+    fn opacities<const N: usize>(&self, f: &Row<N>, gradients: &[[f32; N]; 3]) -> Row<N> {
         let (opacity, factor) = self.curves();
         let mut alphas = opacity.values(f);
         if let Some(factor) = factor {
-            let factors = factor.values(&gg.map(f64::sqrt));
+            let factors = factor.values(&squares(gradients).map(f64::sqrt));
             for at in 0..N {
                 alphas[at] *= if alphas[at] > 0.0 { factors[at] } else { 1.0 };
             }

@@ -1,65 +1,198 @@
 //! What a sample of values looks like: classified, shaded, shadowed and cut where it is.
 
+use fearless_simd::Level;
 use glam::{DVec3, Vec3, Vec4};
 use hecs::Entity;
 
+use super::super::crossing::spots_of;
 use super::super::integrated::Ends;
 use super::super::lanes::{LANES, Lanes, each};
 use super::Values;
 use crate::light::shading::Lamp;
 use crate::light::side_by_side::{self, Lighting, Vectors};
+use crate::light::strength::LightStrength;
 use crate::view::composite::{recolor, thicken};
-use crate::volume::clipping::Section;
-use crate::volume::field::Sampled;
+use crate::view::walk::Tile;
+use crate::volume::clipping::{Cut, Section};
+use crate::volume::field::{FOUR, Sampled, SampledFour, Spot};
 use crate::volume::gradients::normal;
+
+/// Rays that are sampled side by side.
+pub(super) struct SampledRays<'a> {
+    /// Where they are.
+    pub tile: &'a Tile,
+    /// The number of the sample.
+    pub k: i64,
+    /// Which of the tile's rays.
+    pub lanes: Lanes,
+    /// What is left of what they reflect.
+    pub fade: f32,
+}
+
+/// So many samples or fewer are looked at in half of the time.
+const HALF: usize = LANES / 2;
 
 /// Voxels under a cut that are shaded by its normal alone: those of the slab that it is in.
 const CUT_DEEP: f64 = 0.5;
 
 impl Values<'_> {
-    /// Whether what a sample shows is told by its value and gradient alone, and by nothing about its place or slab.
-    pub(super) fn is_plain(&self) -> bool {
-        !self.integrated && self.is_alike_everywhere()
-    }
-
     /// Whether nothing of what a sample shows is told by its place.
     fn is_alike_everywhere(&self) -> bool {
-        self.cut.is_none() && self.strengths.iter().all(Option::is_none)
+        self.cut.is_none() && !self.is_shadowed()
     }
 
-    /// [`look`](Self::look) for samples of the rays `met`, `N` at the most, in their order, that are [plain](Self::is_plain): side
-    /// by side, to the last bit the same.
+    /// Whether any light is weaker somewhere than elsewhere.
+    fn is_shadowed(&self) -> bool {
+        self.strengths.iter().any(Option::is_some)
+    }
+
+    /// Samples the field for some rays, in their order, and finds what they see of it where slabs are not integrated.
     #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
     #[inline(always)]
-    pub(super) fn look_at_all<const N: usize>(
+    pub(super) fn see(
         &self,
-        sampled: &[Sampled; N],
-        (met, fade): (Lanes, f32),
+        level: Level,
+        rays: &SampledRays<'_>,
+        sampled: &mut [SampledFour; LANES / FOUR],
+        seen: &mut [Vec4; LANES],
+    ) {
+        let mut room = [Spot::default(); LANES];
+        let spots = spots_of(rays.tile, (rays.k, rays.lanes), &mut room);
+        if !self.has_gel {
+            let mut values = [0.0; LANES];
+            self.field.values(level, spots, &mut values);
+            for (sampled, values) in sampled.iter_mut().zip(values.chunks(FOUR)) {
+                sampled.values.copy_from_slice(values);
+            }
+            each(rays.lanes).for_each(|lane| seen[lane] = Vec4::ZERO);
+            return;
+        }
+        self.field.sample_fours(level, spots, sampled);
+        if self.integrated {
+            return;
+        }
+        if spots.len() <= HALF {
+            self.look_at_all::<HALF>(sampled, (rays, spots), seen);
+        } else {
+            self.look_at_all::<LANES>(sampled, (rays, spots), seen);
+        }
+    }
+
+    /// [`look`](Self::look) for samples of rays, in their order: side by side, to the last bit the same. No slab is integrated.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn look_at_all<const N: usize>(
+        &self,
+        sampled: &[SampledFour],
+        (rays, spots): (&SampledRays<'_>, &[Spot]),
         seen: &mut [Vec4; LANES],
     ) {
         let mut values = [0.0; N];
         let mut gradients = [[0.0; N]; 3];
-        for (at, sampled) in sampled.iter().enumerate() {
-            values[at] = sampled.value;
-            side_by_side::set(&mut gradients, at, Vec3::from(sampled.gradient));
+        for (at, four) in (0..N).step_by(FOUR).zip(sampled) {
+            values[at..at + FOUR].copy_from_slice(&four.values);
+            for axis in 0..3 {
+                gradients[axis][at..at + FOUR].copy_from_slice(&four.gradients[axis]);
+            }
         }
         let alphas = self.classifier.opacities(&values, &gradients);
+        let alphas_of_rays = &alphas[..spots.len()];
+        if !alphas_of_rays.iter().any(|alpha| *alpha > 0.0) {
+            each(rays.lanes).for_each(|lane| seen[lane] = Vec4::ZERO);
+            return;
+        }
         let mut colors: Vectors<N> =
             side_by_side::all(self.classifier.only_color().unwrap_or_default());
         if self.classifier.only_color().is_none() {
-            for at in (0..N).filter(|&at| alphas[at] > 0.0) {
+            for at in (0..spots.len()).filter(|&at| alphas[at] > 0.0) {
                 let gradient = side_by_side::one(&gradients, at).to_array();
                 side_by_side::set(&mut colors, at, self.classifier.color(values[at], gradient));
             }
         }
+        let mut normals = side_by_side::normals(&gradients);
+        let sections = self.near_cut(spots).map(|cut| self.sections(cut, rays, &alphas));
+        if let Some(sections) = &sections {
+            for at in 0..N {
+                let turned = sections[at].turned(side_by_side::one(&normals, at), CUT_DEEP);
+                side_by_side::set(&mut normals, at, turned);
+            }
+        }
         let lighting = Lighting { ambient: 0.0, lamps: &self.all_lamps, how: self.how };
-        let reflected = lighting.sent(&colors, &side_by_side::normals(&gradients));
-        for (at, lane) in each(met).enumerate() {
+        let reflected = if self.is_shadowed() {
+            self.sent_through(&lighting, (&colors, &normals), rays, &alphas)
+        } else {
+            lighting.sent(&colors, &normals)
+        };
+        for (at, lane) in each(rays.lanes).enumerate() {
             let reflected = side_by_side::one(&reflected, at);
             let color = side_by_side::one(&colors, at);
-            let lit = self.lit(color, reflected, fade, alphas[at]);
+            let lit = self.lit(color, reflected, rays.fade, alphas[at]);
             seen[lane] = if alphas[at] > 0.0 { lit } else { Vec4::ZERO };
         }
+        if let Some(sections) = &sections {
+            for (at, lane) in each(rays.lanes).enumerate() {
+                let [_, way] = self.world(rays.tile, lane, rays.k);
+                seen[lane] = part_of(seen[lane], sections[at], way);
+            }
+        }
+    }
+
+    /// The cut, if it is near enough to some of the samples to change what they show.
+    #[inline]
+    fn near_cut(&self, spots: &[Spot]) -> Option<&Cut> {
+        let cut = self.cut.as_ref()?;
+        let (mut low, mut high) = ([usize::MAX; 3], [0; 3]);
+        for Spot { cell, .. } in spots {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(cell[axis]);
+                high[axis] = high[axis].max(cell[axis]);
+            }
+        }
+        (!cut.is_whole([low, high.map(|cell| cell + 1)], CUT_DEEP)).then_some(cut)
+    }
+
+    /// How the samples that are seen lie to the cut.
+    fn sections<const N: usize>(
+        &self,
+        cut: &Cut,
+        rays: &SampledRays<'_>,
+        alphas: &[f32; N],
+    ) -> [Section; N] {
+        let mut sections = [Section::NONE; N];
+        for (at, lane) in each(rays.lanes).enumerate().filter(|&(at, _)| alphas[at] > 0.0) {
+            sections[at] = cut.at(self.world(rays.tile, lane, rays.k)[0]);
+        }
+        sections
+    }
+
+    /// What comes back of all lights, some of which are weaker at some places.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn sent_through<const N: usize>(
+        &self,
+        lighting: &Lighting<'_>,
+        colors_and_normals: (&Vectors<N>, &Vectors<N>),
+        rays: &SampledRays<'_>,
+        alphas: &[f32; N],
+    ) -> Vectors<N> {
+        let mut sent = [[0.0; N]; 3];
+        for (lamp, strength) in self.all_lamps.iter().zip(self.strengths_of_all()) {
+            let mut through = [1.0; N];
+            if let Some(strength) = strength {
+                for (at, lane) in each(rays.lanes).enumerate().filter(|&(at, _)| alphas[at] > 0.0) {
+                    let [world, _] = self.world(rays.tile, lane, rays.k);
+                    through[at] = strength.at(world + lamp.toward.as_dvec3() * strength.bias());
+                }
+            }
+            lighting.add(lamp, colors_and_normals, &through, &mut sent);
+        }
+        sent
+    }
+
+    /// How strong each of all lamps still is; `None`: as strong everywhere.
+    fn strengths_of_all(&self) -> impl Iterator<Item = Option<&LightStrength>> {
+        let plain = self.lamps.plain.iter().map(|_| None);
+        plain.chain(self.strengths.iter().map(Option::as_ref))
     }
 
     /// Associated RGBA per opacity unit of a sample that stands for a slab; of its reflected part `fade` is left.
