@@ -149,25 +149,37 @@ pub fn spots_of<'a>(
     made: &'a mut [Spot; LANES],
 ) -> &'a [Spot] {
     let steps = k.wrapping_sub(tile.middle);
-    let (mut cells, mut parts) = ([[0; LANES]; 3], [[0.0; LANES]; 3]);
-    for axis in 0..3 {
-        let (at, step) = (&tile.at[axis], &tile.step[axis]);
-        for lane in 0..LANES {
-            let place = at[lane].wrapping_add(step[lane].wrapping_mul(steps)).max(0);
-            let way = place >> (FRACTION_BITS - PLACE_BITS) & ((1 << PLACE_BITS) - 1);
-            cells[axis][lane] = (place >> FRACTION_BITS) as usize;
-            parts[axis][lane] = way as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32);
-        }
-    }
+    // Axis by axis, and no loop: that would go over the axes side by side.
+    let (x, of_x) = on_axis(&tile.at[0], &tile.step[0], steps);
+    let (y, of_y) = on_axis(&tile.at[1], &tile.step[1], steps);
+    let (z, of_z) = on_axis(&tile.at[2], &tile.step[2], steps);
     let mut count = 0;
     for lane in each(lanes) {
         made[count] = Spot {
-            cell: [cells[0][lane], cells[1][lane], cells[2][lane]],
-            part: [parts[0][lane], parts[1][lane], parts[2][lane]],
+            cell: [x[lane], y[lane], z[lane]],
+            part: [of_x[lane], of_y[lane], of_z[lane]],
         };
         count += 1;
     }
     &made[..count]
+}
+
+/// The cells that rays are in on one axis so many steps from where they are, and the way through them.
+#[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+#[inline(always)]
+fn on_axis(
+    at: &[i64; LANES],
+    step: &[i64; LANES],
+    steps: i64,
+) -> ([usize; LANES], [f32; LANES]) {
+    let (mut cells, mut parts) = ([0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        let place = at[lane].wrapping_add(step[lane].wrapping_mul(steps)).max(0);
+        let way = place >> (FRACTION_BITS - PLACE_BITS) & ((1 << PLACE_BITS) - 1);
+        cells[lane] = (place >> FRACTION_BITS) as usize;
+        parts[lane] = way as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32);
+    }
+    (cells, parts)
 }
 
 /// The index of a place, in voxels.

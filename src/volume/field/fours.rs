@@ -168,12 +168,12 @@ impl Field<'_> {
         let (low, high) = across::<S, LINEAR>(simd, products).split();
         let ((value, x), (y, z)) = (low.split(), high.split());
         (f32x4::from_slice(simd, &around.base) + value).store_slice(&mut made.values);
-        self.to_world(simd, [x, y, z], &mut made.gradients);
+        self.in_world(simd, [x, y, z], &mut made.gradients);
     }
 
     /// Gradients in the world; zero where they are no numbers.
     #[inline(always)]
-    fn to_world<S: Simd>(&self, simd: S, [x, y, z]: [f32x4<S>; 3], made: &mut [[f32; FOUR]; 3]) {
+    fn in_world<S: Simd>(&self, simd: S, [x, y, z]: [f32x4<S>; 3], made: &mut [[f32; FOUR]; 3]) {
         let [of_x, of_y, of_z] = self.to_world.to_cols_array_2d();
         let along_x = x * of_x[0] + y * of_y[0] + z * of_z[0];
         let along_y = x * of_x[1] + y * of_y[1] + z * of_z[1];
@@ -215,7 +215,7 @@ fn taps<S: Simd>(
 ) -> Taps<f32x16<S>> {
     let mut taps = Taps::new(filter, repeated(simd, parts));
     if *ends != [[false; 2]; FOUR] {
-        let ended = ended(filter, parts, ends);
+        let ended = ended(filter, parts, *ends);
         for tap in 0..4 {
             taps.weights[tap] = f32x16::from_slice(simd, &ended.weights[tap]);
             taps.slopes[tap] = f32x16::from_slice(simd, &ended.slopes[tap]);
@@ -227,7 +227,7 @@ fn taps<S: Simd>(
 /// The same where the grid ends beside some of the places.
 #[cold]
 #[inline(never)]
-fn ended(filter: Filter, parts: &[f32; FOUR], ends: &[[bool; 2]; FOUR]) -> Taps<[f32; WIDE]> {
+fn ended(filter: Filter, parts: &[f32; FOUR], ends: [[bool; 2]; FOUR]) -> Taps<[f32; WIDE]> {
     let mut made = Taps { weights: [[0.0; WIDE]; 4], slopes: [[0.0; WIDE]; 4] };
     for n in 0..WIDE {
         let mut taps = Taps::new(filter, parts[n / FOUR]);

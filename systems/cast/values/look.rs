@@ -91,8 +91,8 @@ impl Values<'_> {
         let mut gradients = [[0.0; N]; 3];
         for (at, four) in (0..N).step_by(FOUR).zip(sampled) {
             values[at..at + FOUR].copy_from_slice(&four.values);
-            for axis in 0..3 {
-                gradients[axis][at..at + FOUR].copy_from_slice(&four.gradients[axis]);
+            for (own, four) in gradients.iter_mut().zip(&four.gradients) {
+                own[at..at + FOUR].copy_from_slice(four);
             }
         }
         let alphas = self.classifier.opacities(&values, &gradients);
@@ -112,8 +112,8 @@ impl Values<'_> {
         let mut normals = side_by_side::normals(&gradients);
         let sections = self.near_cut(spots).map(|cut| self.sections(cut, rays, &alphas));
         if let Some(sections) = &sections {
-            for at in 0..N {
-                let turned = sections[at].turned(side_by_side::one(&normals, at), CUT_DEEP);
+            for (at, section) in sections.iter().enumerate() {
+                let turned = section.turned(side_by_side::one(&normals, at), CUT_DEEP);
                 side_by_side::set(&mut normals, at, turned);
             }
         }
