@@ -6,6 +6,7 @@
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
 mod fours;
+mod sampled;
 
 use fearless_simd::{Level, dispatch};
 use glam::Mat3;
@@ -14,7 +15,7 @@ use super::filter::Taps;
 use super::grid::{Grid, Scalar, Scalars};
 use crate::components::Filter;
 use crate::with_scalars;
-pub use fours::{FOUR, SampledFour};
+pub use sampled::{FOUR, Sampled, SampledFour, Spot};
 
 /// Scalars on a grid, and what is between them.
 #[derive(Clone, Copy)]
@@ -24,24 +25,6 @@ pub struct Field<'a> {
     filter: Filter,
     /// From slopes per voxel to the world.
     to_world: Mat3,
-}
-
-/// A place in a grid: a cell by its first voxel, and how far it is through the cell on each axis, 0..=1.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Spot {
-    /// The cell.
-    pub cell: [usize; 3],
-    /// The way through it.
-    pub part: [f32; 3],
-}
-
-/// What a field is at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sampled {
-    /// f; a NaN where a voxel that it is made of is no finite number.
-    pub value: f32,
-    /// ∇f in the world; zero where a voxel that it needs is no number.
-    pub gradient: [f32; 3],
 }
 
 /// The four voxels of an axis that a place is made of: steps in the array, and the way from the second to the third.
@@ -67,6 +50,12 @@ impl<'a> Field<'a> {
     pub fn new(scalars: &'a Scalars, grid: &Grid, filter: Filter) -> Self {
         let to_world = grid.index_to_world.matrix3.inverse().transpose().as_mat3();
         Self { scalars, size: grid.size, filter, to_world }
+    }
+
+    /// Whether values are interpolated linearly: then a value is made of 8 voxels, and a gradient of 32.
+    #[must_use]
+    pub(crate) fn is_linear(&self) -> bool {
+        self.filter == Filter::Linear
     }
 
     /// Fills in what the field is at some spots, which count as the nearest inside the grid.

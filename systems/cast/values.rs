@@ -12,7 +12,6 @@ use super::integrated::{self, Ends};
 use super::lanes::{LANES, Lanes, each};
 use super::medium::Source;
 use super::window::{Cells, Window};
-use look::SampledRays;
 use crate::light::shading::{Lamp, Lamps, Reflectance};
 use crate::light::strength::LightStrength;
 use crate::view::walk::{FRACTION_BITS, Tile};
@@ -48,6 +47,19 @@ pub struct Values<'a> {
     all_lamps: Vec<&'a Lamp>,
     how: Reflectance,
     strengths: &'a [Option<LightStrength>],
+}
+
+/// Rays that are sampled side by side.
+#[derive(Clone, Copy)]
+struct SampledRays<'a> {
+    /// Where they are.
+    tile: &'a Tile,
+    /// The number of the sample.
+    k: i64,
+    /// Which of the tile's rays.
+    lanes: Lanes,
+    /// What is left of what they reflect.
+    fade: f32,
 }
 
 impl<'a> Values<'a> {

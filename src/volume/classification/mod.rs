@@ -77,7 +77,7 @@ impl Classifier {
     #[inline]
     pub fn opacity(&self, value: f32, gradient: [f32; 3]) -> f32 {
         let f = f64::from(value);
-        if !(f >= self.range[0] && f <= self.range[1]) {
+        if !self.is_in_range(value) {
             return 0.0;
         }
         let alpha = match &self.how {
@@ -244,6 +244,14 @@ impl Classifier {
             How::Mixture(mixture) => mixture.color(f),
         };
         own.map(DVec3::as_vec3).filter(|color| color.is_finite()).unwrap_or(self.color)
+    }
+
+    /// Whether a scalar lies in the [range](Self::range) outside of which the opacity is surely 0; a NaN does not.
+    #[must_use]
+    #[inline]
+    pub(crate) fn is_in_range(&self, value: f32) -> bool {
+        let f = f64::from(value);
+        f >= self.range[0] && f <= self.range[1]
     }
 
     /// The scalars outside of which the opacity is surely 0, whatever the gradient; `low > high` if it is 0 everywhere.

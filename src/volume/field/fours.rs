@@ -5,36 +5,15 @@ use fearless_simd::{Level, Simd, SimdBase, SimdSplit, dispatch, f32x4, f32x16};
 
 use super::super::filter::Taps;
 use super::super::grid::Scalar;
-use super::{Axis, Field, Sampled, Spot, is_inner};
+use super::{Axis, FOUR, Field, SampledFour, Spot, is_inner};
 use crate::components::Filter;
 use crate::with_scalars;
 
-/// Places that are sampled side by side.
-pub const FOUR: usize = 4;
 /// The numbers of a vector: a row of four for each of four places.
 const WIDE: usize = 16;
 /// Which voxel of its row each number is of.
 const TAP: [f32; WIDE] =
     [0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0];
-
-/// What a field is at four places; each is as in [`Sampled`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SampledFour {
-    /// f.
-    pub values: [f32; FOUR],
-    /// ∇f in the world, axis by axis.
-    pub gradients: [[f32; FOUR]; 3],
-}
-
-impl SampledFour {
-    /// What it is at one of them.
-    #[must_use]
-    #[inline]
-    pub fn one(&self, at: usize) -> Sampled {
-        let [x, y, z] = &self.gradients;
-        Sampled { value: self.values[at], gradient: [x[at], y[at], z[at]] }
-    }
-}
 
 /// The 4³ voxels around each of four places, and where these are in their cells.
 struct VoxelsOfFour {

@@ -6,28 +6,15 @@ use hecs::Entity;
 
 use super::super::crossing::spots_of;
 use super::super::integrated::Ends;
-use super::super::lanes::{LANES, Lanes, each};
-use super::Values;
+use super::super::lanes::{LANES, each};
+use super::{SampledRays, Values};
 use crate::light::shading::Lamp;
 use crate::light::side_by_side::{self, Lighting, Vectors};
 use crate::light::strength::LightStrength;
 use crate::view::composite::{recolor, thicken};
-use crate::view::walk::Tile;
 use crate::volume::clipping::{Cut, Section};
 use crate::volume::field::{FOUR, Sampled, SampledFour, Spot};
 use crate::volume::gradients::normal;
-
-/// Rays that are sampled side by side.
-pub(super) struct SampledRays<'a> {
-    /// Where they are.
-    pub tile: &'a Tile,
-    /// The number of the sample.
-    pub k: i64,
-    /// Which of the tile's rays.
-    pub lanes: Lanes,
-    /// What is left of what they reflect.
-    pub fade: f32,
-}
 
 /// So many samples or fewer are looked at in half of the time.
 const HALF: usize = LANES / 2;
@@ -57,7 +44,14 @@ impl Values<'_> {
         seen: &mut [Vec4; LANES],
     ) {
         let mut room = [Spot::default(); LANES];
-        let spots = spots_of(rays.tile, (rays.k, rays.lanes), &mut room);
+        let mut rays = *rays;
+        let found = spots_of(rays.tile, (rays.k, rays.lanes), &mut room).len();
+        let found = if self.leaves_out() {
+            self.leave_out(level, (&mut rays, &mut room), found, seen)
+        } else {
+            found
+        };
+        let spots = &room[..found];
         if !self.has_gel {
             let mut values = [0.0; LANES];
             self.field.values(level, spots, &mut values);
@@ -72,10 +66,41 @@ impl Values<'_> {
             return;
         }
         if spots.len() <= HALF {
-            self.look_at_all::<HALF>(sampled, (rays, spots), seen);
+            self.look_at_all::<HALF>(sampled, (&rays, spots), seen);
         } else {
-            self.look_at_all::<LANES>(sampled, (rays, spots), seen);
+            self.look_at_all::<LANES>(sampled, (&rays, spots), seen);
         }
+    }
+
+    /// Whether values are found before gradients: where many may show nothing, and are made of fewer voxels by far.
+    fn leaves_out(&self) -> bool {
+        let has_ends = self.classifier.range().iter().any(|end| end.is_finite());
+        self.field.is_linear() && has_ends && !self.integrated
+    }
+
+    /// Leaves out the rays whose samples show nothing, whatever the gradient; how many there are still.
+    #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
+    #[inline(always)]
+    fn leave_out(
+        &self,
+        level: Level,
+        (rays, spots): (&mut SampledRays<'_>, &mut [Spot; LANES]),
+        found: usize,
+        seen: &mut [Vec4; LANES],
+    ) -> usize {
+        let mut values = [0.0; LANES];
+        self.field.values(level, &spots[..found], &mut values);
+        let mut left = 0;
+        for (at, lane) in each(rays.lanes).enumerate() {
+            if self.classifier.is_in_range(values[at]) {
+                spots[left] = spots[at];
+                left += 1;
+            } else {
+                rays.lanes &= !(1 << lane);
+                seen[lane] = Vec4::ZERO;
+            }
+        }
+        left
     }
 
     /// [`look`](Self::look) for samples of rays, in their order: side by side, to the last bit the same. No slab is integrated.
