@@ -37,7 +37,11 @@ impl Hull {
         // A NaN is lost in a greatest number, and not in a sum.
         let is_finite = voxels.as_flattened().iter().map(|v| v * 0.0).sum::<f32>() == 0.0;
         is_finite.then(|| Self {
-            values: hulls(&voxels, filter),
+            values: if filter == Filter::CatmullRom {
+                hulls::<true>(&voxels)
+            } else {
+                hulls::<false>(&voxels)
+            },
             slopes: if slopes { steepest(&voxels, filter) } else { Vec::new() },
             greatest,
         })
@@ -121,11 +125,11 @@ fn voxels<T: Scalar>(values: &[T], size: [usize; 3], first: [usize; 3]) -> Voxel
     made
 }
 
-/// Control points of four intervals: between which numbers they lie.
+/// Control points of four intervals: between which numbers they lie, of Catmull and Rom's spline or of the others.
 #[inline]
-fn hull(four: [[f32; 2]; 4], filter: Filter) -> [f32; 2] {
+fn hull<const CATMULL_ROM: bool>(four: [[f32; 2]; 4]) -> [f32; 2] {
     let [a, b, c, d] = four;
-    let points = if filter == Filter::CatmullRom {
+    let points = if CATMULL_ROM {
         let sixth =
             |end: usize, plus: [f32; 2], minus: [f32; 2]| (plus[end] - minus[1 - end]) / 6.0;
         [0, 1].map(|end| [b[end], b[end] + sixth(end, c, a), c[end] - sixth(1 - end, d, b), c[end]])
@@ -146,27 +150,30 @@ fn hull(four: [[f32; 2]; 4], filter: Filter) -> [f32; 2] {
 }
 
 /// The least and the greatest values of each row of cells.
-fn hulls(voxels: &Voxels, filter: Filter) -> Vec<[Row; 2]> {
+fn hulls<const CATMULL_ROM: bool>(voxels: &Voxels) -> Vec<[Row; 2]> {
     let along_x = voxels.iter().map(|row| {
         let mut made = [[0.0; EDGE]; 2];
         for x in 0..EDGE {
             let four = [row[x], row[x + 1], row[x + 2], row[x + 3]].map(|v| [v; 2]);
-            let [low, high] = hull(four, filter);
+            let [low, high] = hull::<CATMULL_ROM>(four);
             (made[0][x], made[1][x]) = (low, high);
         }
         made
     });
     let along_x: Vec<_> = along_x.collect();
-    let along_y = narrow(&along_x, (REACH, REACH), filter);
+    let along_y = narrow::<CATMULL_ROM>(&along_x, (REACH, REACH));
     // With the axes in turn, z is where y was.
     let turned: Vec<_> =
         (0..EDGE * REACH).map(|at| along_y[at % REACH * EDGE + at / REACH]).collect();
-    let along_z = narrow(&turned, (REACH, EDGE), filter);
+    let along_z = narrow::<CATMULL_ROM>(&turned, (REACH, EDGE));
     (0..EDGE * EDGE).map(|at| along_z[at % EDGE * EDGE + at / EDGE]).collect()
 }
 
 /// Of `lines` lines of `reach` rows each, the rows of cells.
-fn narrow(rows: &[[Row; 2]], (reach, lines): (usize, usize), filter: Filter) -> Vec<[Row; 2]> {
+fn narrow<const CATMULL_ROM: bool>(
+    rows: &[[Row; 2]],
+    (reach, lines): (usize, usize),
+) -> Vec<[Row; 2]> {
     let mut made = Vec::with_capacity(lines * EDGE);
     for line in 0..lines {
         for cell in 0..EDGE {
@@ -174,7 +181,7 @@ fn narrow(rows: &[[Row; 2]], (reach, lines): (usize, usize), filter: Filter) -> 
             let mut row = [[0.0; EDGE]; 2];
             for x in 0..EDGE {
                 let of = |n: usize| [four[n][0][x], four[n][1][x]];
-                let [low, high] = hull([of(0), of(1), of(2), of(3)], filter);
+                let [low, high] = hull::<CATMULL_ROM>([of(0), of(1), of(2), of(3)]);
                 (row[0][x], row[1][x]) = (low, high);
             }
             made.push(row);

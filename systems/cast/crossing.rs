@@ -155,10 +155,8 @@ pub fn spots_of<'a>(
     let (z, of_z) = on_axis(&tile.at[2], &tile.step[2], steps);
     let mut count = 0;
     for lane in each(lanes) {
-        made[count] = Spot {
-            cell: [x[lane], y[lane], z[lane]],
-            part: [of_x[lane], of_y[lane], of_z[lane]],
-        };
+        made[count] =
+            Spot { cell: [x[lane], y[lane], z[lane]], part: [of_x[lane], of_y[lane], of_z[lane]] };
         count += 1;
     }
     &made[..count]
@@ -167,11 +165,7 @@ pub fn spots_of<'a>(
 /// The cells that rays are in on one axis so many steps from where they are, and the way through them.
 #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
-fn on_axis(
-    at: &[i64; LANES],
-    step: &[i64; LANES],
-    steps: i64,
-) -> ([usize; LANES], [f32; LANES]) {
+fn on_axis(at: &[i64; LANES], step: &[i64; LANES], steps: i64) -> ([usize; LANES], [f32; LANES]) {
     let (mut cells, mut parts) = ([0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
         let place = at[lane].wrapping_add(step[lane].wrapping_mul(steps)).max(0);
