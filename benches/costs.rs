@@ -195,11 +195,15 @@ fn polygons(floors: &mut Vec<Floor>) {
     ];
     let views = if is_quick() { 3 } else { 9 };
     for view in 0..views {
-        ways.iter_mut().for_each(|way| way.view(f64::from(view) * 40.0 + 5.0, 3));
+        for way in &mut ways {
+            way.view(f64::from(view) * 40.0 + 5.0, 3);
+        }
     }
     println!("\npolygons, {views} views, best of 3 each");
     for alike in ways.chunks(3) {
-        alike.iter().for_each(|way| way.print(&alike[0]));
+        for way in alike {
+            way.print(&alike[0]);
+        }
     }
     floors.push(Floor::at_most("three planes to none", 1.3, ways[1].ratio(&ways[0])));
     floors.push(Floor::at_most("102,400 triangles to none", 2.0, ways[2].ratio(&ways[0])));

@@ -123,7 +123,9 @@ impl<'a, C: Caster> Refinement<'a, C> {
             let Some(parent) = parent else { return (0..across).for_each(|x| decide(x, true)) };
             for x in (0..across / 2).filter(|x| parent.split(*x, y / 2)) {
                 let [_, may_have_edge] = parent.at(x, y / 2);
-                [2 * x, 2 * x + 1].into_iter().for_each(|x| decide(x, may_have_edge));
+                for child in [2 * x, 2 * x + 1] {
+                    decide(child, may_have_edge);
+                }
             }
         });
         level

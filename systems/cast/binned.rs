@@ -144,7 +144,7 @@ impl Wide {
 
     /// Marks the beams that edges of a face cross; whether the others are sure to be of one side.
     fn mark(&mut self, face: &ProjectedFace, beams: &Beams) -> bool {
-        if face.outlines().vertices().any(|v| !(v.abs().max_element() < SURE)) {
+        if face.outlines().vertices().any(|v| !v.is_finite() || v.abs().max_element() >= SURE) {
             return false;
         }
         for (p, q) in face.outlines().edges() {

@@ -69,7 +69,9 @@ impl Met {
     fn sort(&mut self) {
         let Self { found, hits, ends } = self;
         *ends = [0; LANES];
-        found.iter().for_each(|(lane, _)| ends[usize::from(*lane)] += 1);
+        for (lane, _) in &*found {
+            ends[usize::from(*lane)] += 1;
+        }
         let (mut next, mut sum) = ([0; LANES], 0);
         for lane in 0..LANES {
             next[lane] = sum;
