@@ -192,6 +192,9 @@
 //!   once, dropped where it lies between all rays before its plane or its light is asked for, and put to the tiles of 16 × 16
 //!   positions that it may be met in; of a tile that lies in a face none of its edges is asked. A hierarchy in space would be
 //!   walked by every ray. Facets of a mesh are lit where they are met, few flat faces in advance.
+//!   At a ray a pixel, a frame of figure 6a took 1.23 times that without its planes, and with 102,400 translucent triangles
+//!   in their place, of samples a voxel apart, 3.1 times (`cargo bench --bench costs`); rays that edges ask for between
+//!   pixels cost as much again.
 //!
 //! # What the paper leaves open, as chosen here
 //!
