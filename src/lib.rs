@@ -146,7 +146,7 @@
 //!   Shadows are approximate in one thing: the sweep reads the opacities of voxels, classified alike, and interpolates those.
 //!   Colors stay the default, by measurement (`benches/sharp`): values are nearer to the truth by 1.6 to 1.9 dB, are edited
 //!   sooner, and of opaque surfaces cost twice as much a frame; but of gel that rays go through, under three lights with
-//!   shadows, a frame takes ten times as long. The paper's figures keep colors in any case.
+//!   shadows, a frame takes seven times as long (figure 11). The paper's figures keep colors in any case.
 //! - **A contour of thickness 0 is a surface** of values: where a ray crosses it is found within the slab, so that it is as
 //!   sharp as a polygon at any step, and its opacity is its own. A polygon in that very slab lies before it or behind it, as it does; of several surfaces in one
 //!   slab that a polygon cuts, all count as where the first is. Its edges ask for rays as those of polygons do: C_A sees it lit, and C_G its normal in place of a color, so that there are
