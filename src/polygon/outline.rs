@@ -46,6 +46,7 @@ impl<V: Copy> Rings<V> {
 
     /// The same with each vertex turned into something else.
     #[must_use]
+    #[inline]
     pub fn map<W>(&self, to: impl Fn(V) -> W) -> Rings<W> {
         match self {
             Self::Triangle(triangle) => Rings::Triangle(triangle.map(to)),

@@ -187,7 +187,8 @@ impl Tile {
 #[must_use]
 #[inline]
 pub fn part(way: i64) -> f32 {
-    (way >> (FRACTION_BITS - PLACE_BITS)) as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
+    // By way of 32 bits: of those, several become floats at once.
+    (way >> (FRACTION_BITS - PLACE_BITS)) as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32)
 }
 
 /// At which steps from the middle some of a bundle of rays may be in the grid, and all are for certain.

@@ -145,8 +145,15 @@ fn row<T: Scalar>(values: &[T], x: &Axis, first: usize) -> [T; 4] {
         let four = &values[first + x.at[0]..][..4];
         [four[0], four[1], four[2], four[3]]
     } else {
-        x.at.map(|at| values[first + at])
+        ended_row(values, x, first)
     }
+}
+
+/// The same where the grid ends.
+#[cold]
+#[inline(never)]
+fn ended_row<T: Scalar>(values: &[T], x: &Axis, first: usize) -> [T; 4] {
+    x.at.map(|at| values[first + at])
 }
 
 /// Whether a voxel of an axis is one of the two that the spot lies between.

@@ -3,6 +3,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use fearless_simd::{Simd, f32x16};
+
 use crate::components::Filter;
 
 /// A number, or several side by side.
@@ -19,18 +21,9 @@ pub(crate) trait Amount:
 {
 }
 
-impl<V> Amount for V where
-    V: Copy
-        + Neg<Output = V>
-        + Add<Output = V>
-        + Sub<Output = V>
-        + Mul<Output = V>
-        + Add<f32, Output = V>
-        + Sub<f32, Output = V>
-        + Mul<f32, Output = V>
-        + Div<f32, Output = V>
-{
-}
+impl Amount for f32 {}
+
+impl<S: Simd> Amount for f32x16<S> {}
 
 /// What the voxels before, at, behind and two behind the first of a cell count at a place in the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,7 +14,7 @@ use super::gathered::cast_band;
 use super::lanes::Lanes;
 use super::level::Regions;
 use super::preview::Preview;
-use super::targets::{Caster, Crossed, Outlines};
+use super::targets::{Caster, Crossed, Outlines, looks_for_edges};
 use crate::components::Sampling;
 use crate::error::Error;
 use crate::schedule::Watch;
@@ -39,8 +39,7 @@ impl<'a, C: Caster> Refinement<'a, C> {
         crossed: &'a Crossed,
         caster: &'a C,
     ) -> Self {
-        let below_a_pixel = edges && sampling.finest < POSITIONS as u32;
-        let supersampled = below_a_pixel && sampling.coarsest > sampling.finest;
+        let supersampled = edges && looks_for_edges(sampling);
         let blocks = layout.blocks().iter().product();
         let array = SampleArray {
             layout,

@@ -92,6 +92,11 @@ impl<'a> Appearance<'a> {
         self.answer.lamps.shadowed.len()
     }
 
+    /// What is reflected all over it, where that is known.
+    fn alike(&self) -> Option<&(DVec3, Vec<DVec3>)> {
+        self.known.as_ref()?.reflected.as_ref()
+    }
+
     fn normal_at(&self, world: impl Fn() -> DVec3) -> Vec3 {
         match &self.pointing {
             Pointing::Flat(normal) => *normal,
@@ -103,7 +108,7 @@ impl<'a> Appearance<'a> {
 
     /// What it reflects at a world point of it of the lights that cast no shadow.
     pub fn reflected_at(&self, world: impl Fn() -> DVec3) -> DVec3 {
-        if let Some((reflected, _)) = self.known.as_ref().and_then(|k| k.reflected.as_ref()) {
+        if let Some((reflected, _)) = self.alike() {
             return *reflected;
         }
         let normal = self.normal_at(world);
@@ -113,7 +118,7 @@ impl<'a> Appearance<'a> {
 
     /// What it reflects there of the light of that number that does, unshadowed.
     pub fn shadowed_at(&self, light: usize, world: impl Fn() -> DVec3) -> DVec3 {
-        if let Some((_, shadowed)) = self.known.as_ref().and_then(|k| k.reflected.as_ref()) {
+        if let Some((_, shadowed)) = self.alike() {
             return shadowed[light];
         }
         let (_, lamp) = &self.answer.lamps.shadowed[light];

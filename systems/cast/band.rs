@@ -2,6 +2,7 @@
 
 use super::edges::{EdgeColors, EdgePart};
 use super::lanes::{LANES, Lanes, SIDE, each};
+use super::part::Part;
 use super::targets::RayColors;
 use crate::view::samples::{Colors, Counts, Layout, NONE, POSITIONS};
 
@@ -19,7 +20,7 @@ pub(crate) struct Band<'b> {
     /// What was counted in it.
     pub counts: Counts,
     /// C.
-    colors: Part<'b>,
+    colors: ColorPart<'b>,
     /// C_A and C_G, where they are kept.
     edges: EdgePart<'b>,
     /// Blocks across.
@@ -30,10 +31,8 @@ pub(crate) struct Band<'b> {
     cast: &'b mut [u16],
 }
 
-struct Part<'b> {
-    lattice: &'b mut [[f32; 4]],
-    fine: &'b mut [[[f32; 4]; POSITIONS * POSITIONS]],
-}
+/// C of some blocks in a row.
+type ColorPart<'b> = Part<'b, [f32; 4], [[f32; 4]; POSITIONS * POSITIONS]>;
 
 /// Cuts the colours of a sample array into bands for packets of rays `step` positions apart.
 pub fn cut<'b>(
@@ -74,15 +73,7 @@ pub fn cut<'b>(
     bands
 }
 
-impl Part<'_> {
-    /// Takes the first blocks off.
-    fn take(&mut self, lattice: usize, fine: usize) -> Self {
-        Part {
-            lattice: self.lattice.split_off_mut(..lattice).unwrap_or_default(),
-            fine: self.fine.split_off_mut(..fine).unwrap_or_default(),
-        }
-    }
-
+impl ColorPart<'_> {
     /// Keeps a color at a place in a block, by its number and by that among those that are opened.
     #[inline]
     fn write(&mut self, (within, block, opened): (usize, usize, u32), color: &[f32; 4]) {

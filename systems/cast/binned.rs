@@ -80,6 +80,11 @@ impl Binned {
         Self { starts, near }
     }
 
+    /// Whether no polygon is near any beam.
+    pub fn is_empty(&self) -> bool {
+        self.near.is_empty()
+    }
+
     /// The polygons near a beam.
     pub fn near(&self, beam: usize) -> &[Near] {
         &self.near[self.starts[beam] as usize..self.starts[beam + 1] as usize]

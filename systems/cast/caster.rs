@@ -25,7 +25,7 @@ pub(crate) struct BeamCaster<'a, M> {
     /// What they may meet of volumes.
     pub media: &'a M,
     /// C_G is asked of rays that are farther apart than so many positions: others may be cast between them.
-    pub finest: usize,
+    pub edges_above: usize,
     /// The instructions that rays are cast with; no bit depends on them.
     pub level: Level,
 }
@@ -137,7 +137,7 @@ impl<M: Media> BeamCaster<'_, M> {
             let surfaces = self.media.has_surfaces();
             if surfaces || !hits.is_empty() {
                 color.attenuated = ray.attenuated();
-                if packet.step > self.finest {
+                if packet.step > self.edges_above {
                     let plain = |hit: &Hit| match self.projections.shade(hit) {
                         Some(_) => (DVec3::ZERO, 0.0),
                         None => self.polygons.plain(hit, packet.position(lane)),

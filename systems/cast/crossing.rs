@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3, Vec4};
 
 use super::lanes::{LANES, Lanes, each};
 use crate::view::composite::{Gathered, recolor, thicken};
-use crate::view::walk::{FRACTION_BITS, PLACE_BITS, Tile, part};
+use crate::view::walk::{FRACTION_BITS, Tile, part};
 use crate::volume::field::{Field, Sampled, Spot};
 
 /// Halvings of a stretch that holds a crossing, at the most: each is at least as good as the middle of the last two.
@@ -169,9 +169,8 @@ fn on_axis(at: &[i64; LANES], step: &[i64; LANES], steps: i64) -> ([usize; LANES
     let (mut cells, mut parts) = ([0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
         let place = at[lane].wrapping_add(step[lane].wrapping_mul(steps)).max(0);
-        let way = place >> (FRACTION_BITS - PLACE_BITS) & ((1 << PLACE_BITS) - 1);
         cells[lane] = (place >> FRACTION_BITS) as usize;
-        parts[lane] = way as i32 as f32 * (1.0 / (1_u32 << PLACE_BITS) as f32);
+        parts[lane] = part(place & ((1 << FRACTION_BITS) - 1));
     }
     (cells, parts)
 }

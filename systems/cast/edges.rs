@@ -1,6 +1,7 @@
 //! C_A and C_G while rays are cast, by which is told where edges are seen: at every pixel, and in blocks that are opened at
 //! every second position. Regions of two positions are the smallest that are asked whether they split.
 
+use super::part::Part;
 use super::targets::RayColors;
 use crate::view::samples::{Layout, POSITIONS};
 
@@ -22,11 +23,7 @@ pub(crate) struct EdgeColors {
 }
 
 /// Those of some blocks in a row.
-#[derive(Default)]
-pub(crate) struct EdgePart<'b> {
-    pub lattice: &'b mut [Pair],
-    pub halves: &'b mut [[Pair; HALVES]],
-}
+pub(crate) type EdgePart<'b> = Part<'b, Pair, [Pair; HALVES]>;
 
 impl EdgeColors {
     /// Zeros, and no block opened.
@@ -53,29 +50,23 @@ impl EdgeColors {
 
     /// All blocks.
     pub fn whole(&mut self) -> EdgePart<'_> {
-        EdgePart { lattice: &mut self.lattice, halves: &mut self.halves }
+        Part { lattice: &mut self.lattice, fine: &mut self.halves }
     }
 }
 
 impl EdgePart<'_> {
-    /// Takes the first blocks off.
-    pub fn take(&mut self, lattice: usize, opened: usize) -> Self {
-        Self {
-            lattice: self.lattice.split_off_mut(..lattice).unwrap_or_default(),
-            halves: self.halves.split_off_mut(..opened).unwrap_or_default(),
-        }
-    }
-
     /// Keeps what a ray saw at a place in a block, by its number and by that among those that are opened.
     #[inline]
     pub fn write(&mut self, (within, block, opened): (usize, usize, u32), ray: &RayColors) {
         let pair = [ray.attenuated, ray.geometric];
-        if within == 0 {
-            // There are none where no edges are looked for.
-            self.lattice.get_mut(block).into_iter().for_each(|lattice| *lattice = pair);
-        } else if let Some((half, halves)) = half(within).zip(self.halves.get_mut(opened as usize))
-        {
-            halves[half] = pair;
+        // There are none where no edges are looked for.
+        let kept = if within == 0 {
+            self.lattice.get_mut(block)
+        } else {
+            half(within).zip(self.fine.get_mut(opened as usize)).map(|(half, fine)| &mut fine[half])
+        };
+        if let Some(kept) = kept {
+            *kept = pair;
         }
     }
 }

@@ -42,7 +42,7 @@ pub(crate) struct Gathering {
     /// C_G as far as the ray goes, where volumes have surfaces.
     geometric: Gathered,
     /// Those of the packet's hits that the ray has not come to yet.
-    pub left: [u32; 2],
+    left: [u32; 2],
 }
 
 impl Gathering {
@@ -73,15 +73,23 @@ impl Gathering {
         under(self.geometric, hits, plain, stop)
     }
 
+    /// The next of the packet's hits that the ray comes to.
+    #[inline]
+    pub fn next<'h>(&self, hits: &'h [Hit]) -> Option<&'h Hit> {
+        self.has_hits().then(|| &hits[self.left[0] as usize])
+    }
+
     /// Whether polygons are still to come: only then does C_A go on.
-    pub fn has_hits(&self) -> bool {
+    fn has_hits(&self) -> bool {
         self.left[0] < self.left[1]
     }
 
+    /// Whether more than `stop` comes through of what is still to be seen.
     pub fn is_open(&self, stop: f64) -> bool {
         self.full.through > stop || (self.has_hits() && self.attenuated.through > stop)
     }
 
+    /// Comes through gel of an associated colour and an opacity, with the surfaces in it.
     #[inline]
     pub fn gel(&mut self, color: DVec3, opacity: f64, sheet: Option<Sheet>, stop: f64) {
         if self.full.through > stop {
@@ -104,12 +112,12 @@ impl Gathering {
         stop: f64,
         counts: &mut Counts,
     ) {
-        while self.has_hits() && self.is_open(stop) {
-            self.polygon(&shade(&hits[self.left[0] as usize]), stop, counts);
-            self.left[0] += 1;
+        while let Some(hit) = self.next(hits).filter(|_| self.is_open(stop)) {
+            self.polygon(&shade(hit), stop, counts);
         }
     }
 
+    /// Comes through the polygon at its next hit, shaded.
     pub fn polygon(&mut self, met: &Shaded, stop: f64, counts: &mut Counts) {
         if self.full.through > stop {
             counts.polygon_hits += 1;
@@ -118,6 +126,7 @@ impl Gathering {
         self.covered += self.attenuated.through * met.plain_opacity;
         self.attenuated.under(met.plain_color, met.plain_opacity);
         self.geometric.under(met.plain_color, met.plain_opacity);
+        self.left[0] += 1;
     }
 }
 

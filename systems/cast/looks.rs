@@ -70,10 +70,4 @@ impl<'a> Look<'a> {
     pub fn faces(&self) -> usize {
         self.traced.faces.0.len()
     }
-
-    /// Whether nothing is seen through the face of that number.
-    pub fn is_opaque(&self, at: usize) -> bool {
-        let textured = || self.traced.textured.as_ref().is_some_and(|by| by.laid.on(at).is_some());
-        self.traced.surface.opacity >= 1.0 && !textured()
-    }
 }

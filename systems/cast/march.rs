@@ -120,9 +120,8 @@ impl Next {
     ) {
         for lane in each(passed | !open) {
             let ray = &gathered[lane];
-            let next = || slabs.number(hits[ray.left[0] as usize].depth);
-            let goes_on = open >> lane & 1 == 1 && ray.has_hits();
-            self.slabs[lane] = if goes_on { next() } else { i64::MAX };
+            let next = ray.next(hits).filter(|_| open >> lane & 1 == 1);
+            self.slabs[lane] = next.map_or(i64::MAX, |hit| slabs.number(hit.depth));
         }
         self.least = i64::MAX;
         for lane in 0..LANES {
@@ -168,8 +167,7 @@ impl Slab {
     ) {
         let mut passed = self.from;
         let mut sheet = self.sheet.filter(|sheet| sheet.opacity > 0.0 && sheet.part >= passed);
-        while ray.has_hits() {
-            let hit = &hits[ray.left[0] as usize];
+        while let Some(hit) = ray.next(hits) {
             if slabs.number(hit.depth) > self.k || !ray.is_open(slabs.stop) {
                 break;
             }
@@ -180,7 +178,6 @@ impl Slab {
             self.sliver(place - passed, (ray, slabs.stop), counts);
             passed = place;
             ray.polygon(&shade(hit), slabs.stop, counts);
-            ray.left[0] += 1;
         }
         if let Some(sheet) = sheet.filter(|_| ray.is_open(slabs.stop)) {
             self.surface(&mut passed, &sheet, (ray, slabs.stop), counts);

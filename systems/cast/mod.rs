@@ -7,8 +7,9 @@
 //! nothing, one `medium` (of texels by `kernel`, or of `values`, which have surfaces by `crossing` and slabs that are
 //! `integrated`), or `several` that overlap. A packet leaps as a `bundle` over what is empty, and looks through a `window` at
 //! what may not be. `polygons` says which faces a ray meets: `projected` says where on the picture each is and how deep,
-//! `beams` which rays may be in it, `binned` which faces a beam is near to, `seen` asks them of all faces; `looks`, `appearance`, `texture`, `cue` and
-//! `receiving` say how they look. `projection` is volumes of which a ray shows one value, `sought` along it.
+//! `beams` which rays may be in it, `binned` which faces a beam is near to, `seen` asks them of all faces; `looks`,
+//! `appearance`, `texture`, `cue` and `receiving` say how they look. `projection` is volumes of which a ray shows one value,
+//! `sought` along it.
 
 mod adaptive;
 mod appearance;
@@ -34,6 +35,7 @@ mod looks;
 mod march;
 mod media;
 mod medium;
+mod part;
 mod polygons;
 mod preview;
 mod projected;

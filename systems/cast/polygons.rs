@@ -144,7 +144,7 @@ impl<'a> Polygons<'a> {
         }
         let spread = Spread::of(each(here), |lane| self.beams.place(packet.position(lane)));
         for (number, met) in near.iter().enumerate() {
-            // Faces near one another in a beam are not in memory, and each is met by few rays.
+            // Next to one another in a beam, faces are apart in memory, and each is met by few rays.
             let (part, ahead) = self.faces.part(near.get(number + AHEAD).unwrap_or(met).face);
             prefetch_index(part, ahead);
             let face = self.faces.get(met.face);
@@ -183,8 +183,7 @@ impl<'a> Polygons<'a> {
 
     /// Whether nothing is seen through a hit.
     pub(crate) fn is_opaque(&self, hit: &Hit) -> bool {
-        let [entity, at] = self.faces.get(hit.face).of;
-        self.looks[entity as usize].is_opaque(at as usize)
+        self.look(hit.face, |face| face.opacity >= 1.0 && face.texture.is_none())
     }
 
     /// Associated colour and opacity of a hit of the ray at a position, without texture and shadows.
@@ -215,39 +214,36 @@ impl<'a> Polygons<'a> {
         hit: &Hit,
         (position, step): ([i64; 2], usize),
     ) -> Shaded {
-        let (plain_color, plain_opacity) = self.plain_of(face, hit, position);
         if face.texture.is_none() && self.strengths.iter().all(Option::is_none) {
-            return Shaded {
-                color: plain_color,
-                opacity: plain_opacity,
-                plain_color,
-                plain_opacity,
-            };
+            let (color, opacity) = self.plain_of(face, hit, position);
+            return Shaded { color, opacity, plain_color: color, plain_opacity: opacity };
         }
         let ray = self.camera.ray(Camera::window(position));
         let world = ray.at(hit.depth);
-        let shadowed = self.shadowed(face, world);
-        let reflected = face.reflected_at(|| world);
-        let lit = face.ambient + (reflected + shadowed) * self.fade(hit);
+        let (reflected, fade) = (face.reflected_at(|| world), self.fade(hit));
+        // Of the lights that cast shadows: Σ c_i, and Σ c_i β_i (equation 4).
+        let (mut unshadowed, mut shadowed) = (DVec3::ZERO, DVec3::ZERO);
+        for light in 0..face.shadows() {
+            let sent = face.shadowed_at(light, || world);
+            unshadowed += sent;
+            shadowed += sent * self.beta(face, light, world);
+        }
+        let lit = |shadowed: DVec3| face.ambient + (reflected + shadowed) * fade;
         let texel = face.texture.as_ref();
         let texel = texel.map_or(Vec4::ONE, |texture| texture.at(&ray, hit.depth, step));
         let texel = texel.as_dvec4();
         Shaded {
-            color: lit * texel.truncate() * face.opacity,
+            color: lit(shadowed) * texel.truncate() * face.opacity,
             opacity: face.opacity * texel.w,
-            plain_color,
-            plain_opacity,
+            plain_color: lit(unshadowed) * face.opacity,
+            plain_opacity: face.opacity,
         }
     }
 
-    /// What a face reflects at a world point of the lights that cast shadows: Σ c_i β_i (equation 4).
-    fn shadowed(&self, face: &Appearance<'_>, world: DVec3) -> DVec3 {
-        let beta = |light: usize| {
-            let strength = self.strengths.get(light).and_then(Option::as_ref);
-            strength
-                .map_or(1.0, |strength| f64::from(strength.at(world + face.shadow_offset(light))))
-        };
-        (0..face.shadows()).map(|light| face.shadowed_at(light, || world) * beta(light)).sum()
+    /// β of a light that casts shadows, at a world point of a face.
+    fn beta(&self, face: &Appearance<'_>, light: usize, world: DVec3) -> f64 {
+        let strength = self.strengths.get(light).and_then(Option::as_ref);
+        strength.map_or(1.0, |strength| f64::from(strength.at(world + face.shadow_offset(light))))
     }
 
     /// Where outlines ask for rays.

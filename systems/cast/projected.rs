@@ -28,6 +28,7 @@ pub(crate) struct ProjectedFace {
 
 /// A polygon is thin whose area is less than this for each pixel of half its outline: a strip as wide, a square twice as wide.
 const THIN: f64 = 1.0;
+
 /// The depth of a face's plane at a window position (x, y): `x · dx + y · dy + d`, and with an eye `above` divided by that,
 /// from the eye on.
 struct Plane {
@@ -137,10 +138,7 @@ impl Plane {
 fn projected(outlines: &Rings<DVec3>, camera: &Camera) -> Rings<DVec2> {
     let nearest = camera.nearest();
     if camera.eye.is_none() || outlines.vertices().all(|p| camera.depth(p) - nearest >= 0.0) {
-        return match outlines {
-            Rings::Triangle(corners) => Rings::Triangle(corners.map(|p| camera.project(p).0)),
-            Rings::Many(_) => outlines.map(|p| camera.project(p).0),
-        };
+        return outlines.map(|p| camera.project(p).0);
     }
     Rings::Many(outlines.iter().map(|outline| drawn(outline, camera)).collect())
 }

@@ -16,11 +16,12 @@ use super::projection::Projections;
 use super::seen::SeenFaces;
 use super::several::{AnyMedium, Several};
 use super::shaft::Dust;
+use super::targets::looks_for_edges;
 use super::values::Values;
 use crate::components::{Sampling, Skip};
 use crate::error::Error;
 use crate::view::camera::Camera;
-use crate::view::samples::{Layout, POSITIONS};
+use crate::view::samples::Layout;
 use crate::view::walk::Walk;
 use crate::volume::gel::{Gel, GelBricks, Texel, Texels};
 use crate::volume::grid::smallest_spacing;
@@ -74,11 +75,9 @@ pub fn send<E: Errand>(
     let skips = inputs.sampling.skip != Skip::None;
     let projections = Projections::new(&inputs.projections, camera, slabs.distance, skips);
     let projections = projections.map_err(|problem| Error::entity("view", problem))?;
-    let Sampling { finest, coarsest, .. } = inputs.sampling;
-    // Edges are looked for where they may ask for more than a ray a pixel.
-    let has_edges = (finest as usize) < POSITIONS && coarsest > finest;
-    let finest = if has_edges { finest as usize } else { usize::MAX };
-    let rays = Rays { polygons, projections, slabs, finest };
+    let sampling = &inputs.sampling;
+    let edges_above = if looks_for_edges(sampling) { sampling.finest as usize } else { usize::MAX };
+    let rays = Rays { polygons, projections, slabs, edges_above };
     match media.len() {
         0 => rays.go(&Nothing, errand),
         1 => match media.swap_remove(0) {
@@ -197,13 +196,13 @@ struct Rays<'a> {
     polygons: Polygons<'a>,
     projections: Projections<'a>,
     slabs: Slabs,
-    finest: usize,
+    edges_above: usize,
 }
 
 impl Rays<'_> {
     fn go<M: Media, E: Errand>(self, media: &M, errand: E) -> Result<E::Done, Error> {
-        let Self { polygons, projections, slabs, finest } = self;
+        let Self { polygons, projections, slabs, edges_above } = self;
         let level = Level::new();
-        errand.run(BeamCaster { polygons, projections, slabs, media, finest, level })
+        errand.run(BeamCaster { polygons, projections, slabs, media, edges_above, level })
     }
 }

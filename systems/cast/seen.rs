@@ -38,7 +38,8 @@ impl SeenFaces {
     /// The face of that number.
     #[inline]
     pub fn get(&self, number: u32) -> &ProjectedFace {
-        &self.parts[(number >> BITS) as usize][(number & ((1 << BITS) - 1)) as usize]
+        let (part, at) = self.part(number);
+        &part[at]
     }
 
     /// Those of the part that a face is in, and its number there.
@@ -52,9 +53,10 @@ impl SeenFaces {
         self.parts.iter().flatten()
     }
 
-    /// Whether there are none.
+    /// Whether there are none that any ray is near to.
+    #[inline]
     pub fn is_empty(&self) -> bool {
-        self.parts.iter().all(Vec::is_empty)
+        self.binned.is_empty()
     }
 
     /// Those near a beam.

@@ -3,7 +3,13 @@
 use glam::DVec2;
 
 use super::lanes::{LANES, Packet};
+use crate::components::Sampling;
 use crate::view::samples::{Counts, Layout, POSITIONS};
+
+/// Whether edges are looked for: they may ask for more than a ray a pixel, and not all positions have rays in any case.
+pub fn looks_for_edges(sampling: &Sampling) -> bool {
+    (sampling.finest as usize) < POSITIONS && sampling.coarsest > sampling.finest
+}
 
 /// What the three colours of a ray are: C, C_A and C_G, associated RGBA.
 #[derive(Debug, Clone, Copy, Default)]

@@ -7,7 +7,7 @@ use super::beams::Patch;
 use super::binned::Near;
 use super::projected::ProjectedFace;
 use super::slices;
-use super::targets::{Outlines, most_opened};
+use super::targets::{Outlines, looks_for_edges, most_opened};
 use crate::components::{Classify, DepthCue, Sampling, Shaft, Surface, View, Voxelize};
 use crate::polygon::face::{Face, Faces};
 use crate::view::camera::Camera;
@@ -84,7 +84,7 @@ pub(crate) fn of(
 pub fn keeps_edges(world: &World, sampling: &Sampling) -> bool {
     let mut traced = world.query::<&Faces>().with::<&Surface>().without::<&Voxelize>();
     let any = traced.iter().any(|faces| !faces.0.is_empty()) || has_surfaces(world);
-    any && (sampling.finest as usize) < POSITIONS && sampling.coarsest > sampling.finest
+    any && looks_for_edges(sampling)
 }
 
 /// The bytes of rays through voxels, where they are [asked](slices::asked) for: `alone` where no polygon is traced.

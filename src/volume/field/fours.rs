@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdSplit, dispatch, f32x4, f32x16};
 
 use super::super::filter::Taps;
 use super::super::grid::Scalar;
-use super::{Axis, FOUR, Field, SampledFour, Spot, is_inner};
+use super::{Axis, FOUR, Field, SampledFour, Spot, is_inner, row};
 use crate::components::Filter;
 use crate::with_scalars;
 
@@ -68,7 +68,6 @@ impl Field<'_> {
             let y = self.axis(spot, 1, along_y);
             let z = self.axis(spot, 2, along_z);
             around.base[at] = values[z.at[1] + y.at[1] + x.at[1]].value();
-            let is_whole = x.ends == [false; 2];
             for k in 0..4 {
                 for j in 0..4 {
                     if LINEAR && !is_inner(j) && !is_inner(k) {
@@ -76,14 +75,9 @@ impl Field<'_> {
                     }
                     let first = z.at[k] + y.at[j];
                     let made = &mut around.rows[k][j][FOUR * at..][..4];
-                    if is_whole {
-                        // All of them before the first is written: a widening load.
-                        let four = &values[first + x.at[0]..][..4];
-                        let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
-                        made.copy_from_slice(&[a.value(), b.value(), c.value(), d.value()]);
-                    } else {
-                        ended_row(values, &x, first, made);
-                    }
+                    // All of them before the first is written: a widening load.
+                    let [a, b, c, d] = row(values, &x, first);
+                    made.copy_from_slice(&[a.value(), b.value(), c.value(), d.value()]);
                 }
             }
             for (axis, Axis { part, ends, .. }) in [x, y, z].into_iter().enumerate() {
@@ -165,13 +159,6 @@ impl Field<'_> {
         simd.select_f32x4(is_finite, along_y, zero).store_slice(&mut made[1]);
         simd.select_f32x4(is_finite, along_z, zero).store_slice(&mut made[2]);
     }
-}
-
-/// A row of four voxels where the grid ends.
-#[cold]
-#[inline(never)]
-fn ended_row<T: Scalar>(values: &[T], x: &Axis, first: usize, made: &mut [f32]) {
-    made.iter_mut().zip(x.at).for_each(|(made, at)| *made = values[first + at].value());
 }
 
 /// Four numbers, each for a row of four.
