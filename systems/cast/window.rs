@@ -54,6 +54,13 @@ impl Cells<'_> {
     }
 }
 
+/// The place of the brick around a cell; also of cells before the first.
+#[inline(always)]
+fn brick_of([x, y, z]: [i64; 3]) -> [i64; 3] {
+    let by = CELLS.trailing_zeros();
+    [x >> by, y >> by, z >> by]
+}
+
 /// Some samples of a packet, looked at.
 #[derive(Debug, Clone)]
 pub(crate) struct Window {
@@ -133,7 +140,7 @@ impl Window {
     /// Looks at the samples from `k` on.
     #[inline(always)]
     pub fn look<S: Simd>(&mut self, simd: S, cells: Cells<'_>, tile: &Tile, k: i64, sight: &Sight) {
-        let [low, high] = sight.cells.map(|cell| cell.map(|n| n >> CELLS.trailing_zeros()));
+        let [low, high] = [brick_of(sight.cells[0]), brick_of(sight.cells[1])];
         if (0..3).any(|axis| high[axis].wrapping_sub(low[axis]) >= REACH) {
             self.look_apart(cells, tile, k, sight.held as Lanes);
             return;
@@ -184,7 +191,7 @@ impl Window {
         (self.first, self.end, self.met) = (k, k + 1, 0);
         for lane in super::lanes::each(held) {
             let cell = tile.at_sample(lane, k).map(|place| place >> FRACTION_BITS);
-            let brick = cells.stored(cell.map(|n| n >> CELLS.trailing_zeros()));
+            let brick = cells.stored(brick_of(cell));
             self.within[lane] = lane as u8;
             self.bricks[lane] = brick;
             let [x, y, z] = cell.map(|n| n as usize % CELLS);
