@@ -1,7 +1,8 @@
 //! What `gelray render --target psnr=45` lands at, and how its settings compare with the cheapest of an exhaustive grid.
 //!
 //! Five scenes: a volume alone, three planes, shadows, textures, two volumes. Cost is counted, in rays and samples, so that a
-//! busy machine changes nothing. CT data where `GELRAY_DATA` is set, else the phantom; `--quick` takes a coarser grid.
+//! busy machine changes nothing. With `--ms` it is a time that is asked for, and each of ten views of a turn is timed.
+//! CT data where `GELRAY_DATA` is set, else the phantom; `--quick` takes a coarser grid.
 
 #[allow(dead_code, reason = "other benches measure memory and seconds")]
 mod timed;
@@ -11,14 +12,16 @@ use std::process::Command;
 
 use gelray::components::{Sampling, View};
 use gelray::formats::read_picture;
+use gelray::measure::cost::FRAME;
 use gelray::measure::error::compare;
 use gelray::scene::Source;
 use gelray::view::picture::{Frame, Picture};
 use gelray::view::samples::{Counts, Samples};
-use timed::{Setting, is_quick};
+use timed::{Setting, Spread, is_quick};
 
 const GOAL: f64 = 45.0;
 const SIZE: u32 = 256;
+const VIEWS: u32 = 10;
 
 /// A name, the TOML or the name of an embedded scene, and its Δ.
 const SCENES: [(&str, &str, f64); 5] = [
@@ -57,16 +60,18 @@ sampling = { distance_mm = 1.0 }
 "#;
 
 fn main() {
+    if std::env::args().any(|argument| argument == "--ms") {
+        times();
+        return;
+    }
     println!(
         "{:14} {:>8} {:>12} {:>12} {:>8}   settings",
         "scene", "dB", "work", "grid's", "ratio"
     );
     for (what, scene, distance) in SCENES {
         let (file, source) = source(scene);
-        let (chosen, work_chosen, settings) = target(&file);
-        let mut setting = Setting::open(&source).expect("the scene is read");
-        let sized = |view: &mut View| view.size = [SIZE; 2];
-        setting.world.query_mut::<&mut View>().into_iter().for_each(sized);
+        let (chosen, work_chosen, settings) = target(&file, &format!("psnr={GOAL}"));
+        let mut setting = opened(&source);
         setting.sample(|s| {
             *s = Sampling { distance_mm: Some(distance / 4.0), ..s.exact() };
         });
@@ -81,6 +86,52 @@ fn main() {
     }
 }
 
+/// A scene of the benches' size.
+fn opened(source: &Source) -> Setting {
+    let mut setting = Setting::open(source).expect("the scene is read");
+    let sized = |view: &mut View| view.size = [SIZE; 2];
+    setting.world.query_mut::<&mut View>().into_iter().for_each(sized);
+    setting
+}
+
+/// Milliseconds of a frame at ten views, by the settings that keep seven tenths of the slowest view's.
+fn times() {
+    println!("{:14} {:>8} {:>8}   ten views, ms; settings", "scene", "asked", "within");
+    for (what, scene, _) in SCENES {
+        let (file, source) = source(scene);
+        let mut setting = opened(&source);
+        let start = setting.world.query::<&View>().iter().next().map_or(0.0, |view| view.azimuth);
+        let slowest = |times: &[f64]| times.iter().copied().fold(0.0, f64::max);
+        let asked = 0.7 * slowest(&turn(&mut setting, start));
+        let (_, _, settings) = target(&file, &format!("ms={asked} --views {VIEWS}"));
+        let stated: toml::Table =
+            settings.parse().expect("the settings are told as a scene states them");
+        let sampling: Sampling =
+            stated["sampling"].clone().try_into().expect("the settings are those of a view");
+        setting.sample(|own| *own = sampling.clone());
+        let times = turn(&mut setting, start);
+        let within = times.iter().filter(|&&time| time <= 1.1 * asked).count();
+        println!("{what:14} {asked:8.2} {within:5}/{VIEWS}   {times:.1?}; {settings}");
+    }
+}
+
+/// Milliseconds of casting and resampling at each view of a turn, the median of some frames.
+fn turn(setting: &mut Setting, start: f64) -> Vec<f64> {
+    let mut times = Vec::new();
+    for view in 0..VIEWS {
+        setting.turn(start + 360.0 * f64::from(view) / f64::from(VIEWS));
+        let mut seconds = Vec::new();
+        for _ in 0..7 {
+            // Frames of equal settings in a row would be kept, and take no time.
+            setting.sample(|own| own.tolerance += 1e-6);
+            let frame = setting.run().0.into_iter().filter(|ran| FRAME.contains(&ran.name));
+            seconds.push(frame.map(|ran| ran.seconds * 1e3).sum());
+        }
+        times.push(Spread::of(&seconds).median);
+    }
+    times
+}
+
 /// A file of the scene for the program, or its name, and the scene itself.
 fn source(scene: &str) -> (String, Source) {
     if !scene.contains('[') {
@@ -92,14 +143,15 @@ fn source(scene: &str) -> (String, Source) {
 }
 
 /// The picture that the program makes, what it took, and the line of settings.
-fn target(scene: &str) -> (Picture, f64, String) {
+fn target(scene: &str, goal: &str) -> (Picture, f64, String) {
     let [picture, stats] = ["npy", "json"].map(|end| {
         std::env::temp_dir().join(format!("gelray-target-{}.{end}", std::process::id()))
     });
     let size = format!("{SIZE}x{SIZE}");
-    let goal = format!("psnr={GOAL}");
     let ran = Command::new(env!("CARGO_BIN_EXE_gelray"))
-        .args(["render", scene, "--size", &size, "--target", &goal, "-o"])
+        .args(["render", scene, "--size", &size])
+        .args(["--target".to_owned()].into_iter().chain(goal.split(' ').map(str::to_owned)))
+        .arg("-o")
         .arg(&picture)
         .arg("--stats")
         .arg(&stats)

@@ -23,6 +23,9 @@ pub struct Accuracy {
     /// Renders by settings that a short calibration finds: the cheapest for psnr=45, max=0.01 or ssim=0.99, the most exact for ms=20
     #[arg(long, value_name = "MEASURE=NUMBER", value_parser = Goal::parse)]
     target: Option<Goal>,
+    /// Views of a turn that the target is kept at; the worst of them counts
+    #[arg(long, value_name = "N", default_value = "1", requires = "target", value_parser = clap::value_parser!(u32).range(1..=360))]
+    views: u32,
 }
 
 impl Accuracy {
@@ -38,7 +41,7 @@ impl Accuracy {
                 "--exact states settings and --target looks for some; leave one of them away"
                     .to_owned(),
             )),
-            Some(goal) => calibrated(scene, goal, interrupt, flags),
+            Some(goal) => calibrated(scene, (goal, self.views), interrupt, flags),
             None => Ok(scene),
         }
     }

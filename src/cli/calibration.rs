@@ -25,15 +25,15 @@ const COMBINATIONS: usize = 24;
 /// pixels.
 const LEFT: [&str; 4] = ["skip", "texel", "outlines", "per_voxel"];
 
-/// The scene with settings that keep `goal`; says which, and what is expected of them.
+/// The scene with settings that keep `goal` at so many views of a turn; says which, and what is expected of them.
 pub fn calibrated(
     scene: Scene,
-    goal: Goal,
+    (goal, views): (Goal, u32),
     interrupt: &Interrupt,
     flags: &Flags,
 ) -> Result<Scene, Failure> {
     let size = scene.world.query::<&View>().iter().next().map_or([1, 1], |view| view.size);
-    let mut traded = TradeScene::new(scene, 1, &interrupt.watch)?;
+    let mut traded = TradeScene::new(scene, views, &interrupt.watch)?;
     bound::check_memory(traded.renderer.schedule(), &traded.scene.world, flags)?;
     interrupt.work_begins();
     traded.resize(fraction(size));
@@ -51,7 +51,7 @@ pub fn calibrated(
     if !flags.quiet {
         tell(format_args!("{expected}\n{}", stated(&sampling)));
     }
-    state(traded.scene, &sampling)
+    state(traded.into_scene(), &sampling)
 }
 
 /// A size of so few pixels that a sweep is short, of the same shape.

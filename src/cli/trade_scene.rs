@@ -153,27 +153,35 @@ impl TradeScene {
         self.scene.world.query_mut::<&mut View>().into_iter().for_each(|view| view.size = size);
     }
 
-    /// What the picture of the first view is off by, from a part of its pixels that take `share` times its work.
-    pub fn judged(&mut self, share: f64) -> Result<Option<Judged>, Failure> {
-        let views: Vec<Entity> =
+    /// What the picture of a view is off by, from a part of its pixels that take `share` times its work.
+    pub fn judged(&mut self, view: u32, share: f64) -> Result<Option<Judged>, Failure> {
+        let entities: Vec<Entity> =
             self.scene.world.query_mut::<Entity>().with::<&View>().into_iter().collect();
         let mut stated = Vec::new();
-        for view in views {
-            let own = self.scene.world.get::<&Estimate>(view).map(|own| *own).ok();
-            stated.push((view, own));
+        for entity in entities {
+            let own = self.scene.world.get::<&Estimate>(entity).map(|own| *own).ok();
+            stated.push((entity, own));
             // It was found there a line ago.
-            let _ = self.scene.world.insert_one(view, Estimate { seed: 0, share });
+            let _ = self.scene.world.insert_one(entity, Estimate { seed: 0, share });
         }
         let base = self.base.clone();
-        self.frame(0, &base)?;
+        self.frame(view, &base)?;
         let judged = self.scene.world.query::<&Judged>().iter().next().cloned();
-        for (view, own) in stated {
+        for (entity, own) in stated {
             let world = &mut self.scene.world;
             // It carries one since a few lines ago.
-            let _ = world.remove_one::<Estimate>(view);
-            let _ = own.map(|own| world.insert_one(view, own));
+            let _ = world.remove_one::<Estimate>(entity);
+            let _ = own.map(|own| world.insert_one(entity, own));
         }
         Ok(judged)
+    }
+
+    /// The scene again, seen from where it states.
+    pub fn into_scene(mut self) -> Scene {
+        for view in self.scene.world.query_mut::<&mut View>() {
+            view.azimuth = self.azimuth;
+        }
+        self.scene
     }
 
     /// A frame of one of the views.

@@ -33,9 +33,9 @@ pub struct Tried {
 pub struct Bench<'a> {
     traded: &'a mut TradeScene,
     goal: Goal,
-    /// For a goal of decibels.
-    judged: Option<Judged>,
-    /// The work of what the scene states.
+    /// For a goal of decibels: each view.
+    judged: Vec<Judged>,
+    /// The work of what the scene states, of all views.
     stated: f64,
 }
 
@@ -51,12 +51,14 @@ const TRIMS: [Trim; 3] = [
 impl<'a> Bench<'a> {
     /// Casts the exact pixels, if the goal asks for an accuracy.
     pub fn new(traded: &'a mut TradeScene, goal: Goal) -> Result<Self, Failure> {
-        let judged = match goal {
-            Goal::Psnr(_) => traded.judged(SHARE)?,
-            _ => None,
-        };
         let base = traded.base.clone();
-        let stated = work(&traded.frame(0, &base)?.counts);
+        let (mut judged, mut stated) = (Vec::new(), 0.0);
+        for view in 0..traded.views {
+            if matches!(goal, Goal::Psnr(_)) {
+                judged.extend(traded.judged(view, SHARE)?);
+            }
+            stated += work(&traded.frame(view, &base)?.counts);
+        }
         Ok(Self { traded, goal, judged, stated })
     }
 
@@ -152,35 +154,62 @@ impl<'a> Bench<'a> {
     }
 
     fn tried(&mut self, sampling: Sampling) -> Result<Tried, Failure> {
-        match (self.goal, &self.judged) {
-            (Goal::Psnr(least), Some(judged)) => {
-                let made = self.traded.frame(0, &sampling)?;
-                let Judged { psnr_db, low, high, .. } = judged.of_another(&made.picture);
-                let cost = work(&made.counts);
-                let told = format!(
-                    "expected: {psnr_db:.1} dB ({low:.1} to {high:.1}), {:.2} times the work of what the scene states",
-                    cost / self.stated
-                );
-                Ok(Tried { sampling, told, kept: psnr_db - least - MARGIN, cost })
-            }
-            (Goal::Milliseconds(most), _) => {
+        match self.goal {
+            Goal::Psnr(least) => self.accuracy(sampling, least),
+            Goal::Milliseconds(most) => {
                 let milliseconds = self.milliseconds(&sampling)?;
-                let told = format!("expected: {milliseconds:.1} ms for a frame");
+                let told = format!("expected: {milliseconds:.1} ms for a frame{}", self.of_views());
                 Ok(Tried { sampling, told, kept: most - milliseconds, cost: milliseconds })
             }
-            _ => Err(Failure::Said("the picture cannot be judged".to_owned())),
+            Goal::Max(_) | Goal::Ssim(_) => {
+                Err(Failure::Said("the picture cannot be judged".to_owned()))
+            }
         }
     }
 
-    /// The median of some frames.
-    fn milliseconds(&mut self, sampling: &Sampling) -> Result<f64, Failure> {
-        let mut seconds = Vec::new();
-        for time in 0..TIMED {
-            // Frames of equal settings in a row would be kept, and take no time.
-            let tolerance = sampling.tolerance + 1e-6 * f32::from(time + 1);
-            let frame = self.traded.frame(0, &Sampling { tolerance, ..sampling.clone() })?;
-            seconds.push(frame.seconds * 1e3);
+    /// What the worst view is off by, and what all take.
+    fn accuracy(&mut self, sampling: Sampling, least: f64) -> Result<Tried, Failure> {
+        let (mut worst, mut cost): (Option<Judged>, f64) = (None, 0.0);
+        for (view, judged) in (0..).zip(&self.judged) {
+            let made = self.traded.frame(view, &sampling)?;
+            cost += work(&made.counts);
+            let judged = judged.of_another(&made.picture);
+            if worst.as_ref().is_none_or(|worst| judged.psnr_db < worst.psnr_db) {
+                worst = Some(judged);
+            }
         }
-        Ok(median(&seconds))
+        let Some(Judged { psnr_db, low, high, .. }) = worst else {
+            return Err(Failure::Said("the picture cannot be judged".to_owned()));
+        };
+        let told = format!(
+            "expected: {psnr_db:.1} dB ({low:.1} to {high:.1}){}, {:.2} times the work of what the scene states",
+            self.of_views(),
+            cost / self.stated
+        );
+        Ok(Tried { sampling, told, kept: psnr_db - least - MARGIN, cost })
+    }
+
+    /// Of which view the numbers are, in words.
+    fn of_views(&self) -> String {
+        match self.traded.views {
+            1 => String::new(),
+            views => format!(" at the worst of {views} views"),
+        }
+    }
+
+    /// The median of some frames, of the slowest view.
+    fn milliseconds(&mut self, sampling: &Sampling) -> Result<f64, Failure> {
+        let mut slowest: f64 = 0.0;
+        for view in 0..self.traded.views {
+            let mut seconds = Vec::new();
+            for time in 0..TIMED {
+                // Frames of equal settings in a row would be kept, and take no time.
+                let tolerance = sampling.tolerance + 1e-6 * f32::from(time + 1);
+                let frame = self.traded.frame(view, &Sampling { tolerance, ..sampling.clone() })?;
+                seconds.push(frame.seconds * 1e3);
+            }
+            slowest = slowest.max(median(&seconds));
+        }
+        Ok(slowest)
     }
 }

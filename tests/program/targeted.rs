@@ -28,6 +28,43 @@ fn a_target_in_decibels_is_kept_and_not_by_much_and_equal_commands_give_equal_by
 }
 
 #[test]
+fn a_target_of_several_views_is_kept_at_the_worst_and_the_picture_is_of_the_stated_view() {
+    let place = Place::new();
+    let words = "render minimal_3 --size 96x96";
+    let target = "--target psnr=42 --views 3";
+    let ran = place.done(&format!("{words} {target} -o a.npy"));
+    assert!(ran.err.contains("at the worst of 3 views"), "{}", ran.err);
+    let stated = ran.err.lines().find(|line| line.starts_with("sampling = ")).unwrap();
+    let mut kept = Vec::new();
+    for view in 0..3 {
+        let turned = format!("{words} --set observer.view.azimuth={}", 120 * view);
+        let exact = "--exact --set observer.sampling.distance_mm=0.25";
+        place.done(&format!("{turned} {exact} -o exact.npy"));
+        place.done(&format!("{turned} {} -o b.npy", overrides(stated)));
+        kept.push(decibels(&place, "b.npy", "exact.npy"));
+        if view == 0 {
+            assert_eq!(
+                place.read("a.npy"),
+                place.read("b.npy"),
+                "the picture is of the stated view"
+            );
+        }
+    }
+    println!("{kept:.2?} dB for 42; {}", ran.err);
+    let worst = kept.into_iter().fold(f64::INFINITY, f64::min);
+    assert!((41.5..43.5).contains(&worst), "{worst}");
+    place.refused(&format!("{words} --views 3"), 2, &["--target"]);
+}
+
+/// The settings of a line `sampling = { … }` as overrides.
+fn overrides(stated: &str) -> String {
+    let table: toml::Table = stated.parse().unwrap();
+    let settings = table["sampling"].as_table().unwrap();
+    let each = |(key, value)| format!("--set observer.sampling.{key}={value}");
+    settings.iter().map(each).collect::<Vec<_>>().join(" ")
+}
+
+#[test]
 fn other_targets_are_kept_at_a_fraction_of_the_size_or_refused_in_a_sentence() {
     let place = Place::new();
     let words = "render minimal_2 --size 48x48 -o a.png";
