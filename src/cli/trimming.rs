@@ -10,7 +10,7 @@ use super::trade_points::work;
 use super::trade_scene::TradeScene;
 
 /// How long the exact pixels may take, in frames.
-const SHARE: f64 = 12.0;
+const SHARE: f64 = 64.0;
 /// Decibels above the goal that are aimed at: some thousand pixels do not tell it closer.
 const MARGIN: f64 = 0.3;
 /// Frames that are timed of each choice.

@@ -18,6 +18,8 @@ pub struct Drawn {
     pub item: usize,
     /// What its number counts in the mean: over a round, the sum of `weight · number` is an estimate of the mean over all.
     pub weight: f64,
+    /// A number from 0 up to 1 that says which part of the item was drawn, where it has parts of equal size.
+    pub within: f64,
 }
 
 /// A mean and between which bounds it lies.
@@ -57,7 +59,8 @@ impl Survey {
             let item = self.sums.partition_point(|&sum| sum <= at).min(self.sums.len() - 1);
             let before = if item == 0 { 0.0 } else { self.sums[item - 1] };
             let size = self.sums[item] - before;
-            Drawn { item, weight: total / (size * items * strata as f64) }
+            let within = ((at - before) / size).clamp(0.0, 1.0 - f64::EPSILON);
+            Drawn { item, weight: total / (size * items * strata as f64), within }
         };
         (0..strata).map(drawn).collect()
     }

@@ -31,6 +31,9 @@ const STOP_AT: f32 = 1e-4;
 const FIRST: usize = 5;
 /// How much longer the same work takes where pixels lie apart: what one touches of the gel is in no cache for the next.
 const APART: f64 = 3.0;
+/// Pixels across and down of the blocks that are drawn as one: what is drawn often is known of a block, and one of its pixels
+/// is cast.
+const BLOCK: usize = 2;
 /// The ends of no range.
 const NOTHING: [Vec4; 2] = [Vec4::INFINITY, Vec4::NEG_INFINITY];
 /// The most rounds: more would know the error to less than 0.3 dB.
@@ -93,7 +96,7 @@ impl System for Judge {
         let mut views = world.query::<(Entity, &View)>().with::<&Estimate>();
         let bytes = |(entity, view): (Entity, &View)| {
             let pixels: u64 = view.size.iter().map(|&n| u64::from(n)).product();
-            (entity, pixels * 3 * size_of::<f64>() as u64)
+            (entity, pixels * 3 * size_of::<f64>() as u64 / (BLOCK * BLOCK) as u64)
         };
         let makes: Vec<_> = views.iter().map(bytes).collect();
         if makes.is_empty() {
@@ -168,8 +171,9 @@ impl Judging<'_> {
         let looks = (inputs.sampling.pixel_filter, inputs.view.background);
         let mut scratch = <BeamCaster<'_, M> as Caster>::Scratch::default();
         let mut counts = Counts::default();
-        let exact = |&Drawn { item, weight }: &Drawn| {
-            let at = [item % picture.size[0], item / picture.size[0]];
+        let exact = |drawn: &Drawn| {
+            let (at, weight) = pixel_of(drawn, picture.size);
+            let item = at[1] * picture.size[0] + at[0];
             let mut exact = exact_pixel(caster, at, looks, &mut scratch, &mut counts);
             if let Some(Overlay(over)) = overlay {
                 let over = Picture::new([1, 1], vec![over.pixels[item]]);
@@ -186,22 +190,37 @@ fn work(counts: &Counts) -> u64 {
     counts.samples + 8 * counts.packet_steps + 32 * counts.rays
 }
 
-/// How often each pixel is to be drawn: as the root of the range of the pixels around it, for edges are off by more, and all
-/// of them now and then.
+/// The pixel that was drawn of a block, and what it counts in the mean over all pixels.
+fn pixel_of(&Drawn { item, weight, within }: &Drawn, size: [usize; 2]) -> ([usize; 2], f64) {
+    let blocks = size.map(|n| n.div_ceil(BLOCK));
+    let first = [item % blocks[0], item / blocks[0]].map(|n| n * BLOCK);
+    // Blocks at the right and the lower end may have fewer pixels.
+    let [across, down] = [0, 1].map(|axis| BLOCK.min(size[axis] - first[axis]));
+    let pixels = across * down;
+    let one = ((within * pixels as f64) as usize).min(pixels - 1);
+    let of_all = (blocks[0] * blocks[1] * pixels) as f64 / (size[0] * size[1]) as f64;
+    ([first[0] + one % across, first[1] + one / across], weight * of_all)
+}
+
+/// How often each block of pixels is to be drawn: as the root of the range of its pixels and those around it, for edges are
+/// off by more, and all of them now and then.
 fn sizes(picture: &Picture) -> Vec<f64> {
     let [width, height] = picture.size;
-    let mut roots = vec![0.0; width * height];
-    let rows = roots.par_chunks_mut(width).enumerate();
-    rows.for_each_init(Vec::new, |ends, (y, roots)| {
-        // Of three rows first, and then of three in a row.
+    let across = width.div_ceil(BLOCK);
+    let mut roots = vec![0.0; across * height.div_ceil(BLOCK)];
+    let rows = roots.par_chunks_mut(across).enumerate();
+    rows.for_each_init(Vec::new, |ends, (row, roots)| {
+        // Of the rows first, and then of columns.
         ends.clear();
-        ends.extend((0..width).map(|x| {
-            let column = (y.saturating_sub(1)..(y + 2).min(height))
-                .map(|y| Vec4::from(picture.pixels[y * width + x]));
-            column.fold(NOTHING, |[low, high], color| [low.min(color), high.max(color)])
-        }));
-        for (x, root) in roots.iter_mut().enumerate() {
-            let near = &ends[x.saturating_sub(1)..(x + 2).min(width)];
+        ends.resize(width, NOTHING);
+        for y in (row * BLOCK).saturating_sub(1)..(row * BLOCK + BLOCK + 1).min(height) {
+            for ([low, high], &color) in ends.iter_mut().zip(&picture.pixels[y * width..]) {
+                (*low, *high) = (low.min(color.into()), high.max(color.into()));
+            }
+        }
+        for (column, root) in roots.iter_mut().enumerate() {
+            let first = column * BLOCK;
+            let near = &ends[first.saturating_sub(1)..(first + BLOCK + 1).min(width)];
             let join = |a: [Vec4; 2], b: &[Vec4; 2]| [a[0].min(b[0]), a[1].max(b[1])];
             let [low, high] = near.iter().fold(NOTHING, join);
             let range = f64::from((high - low).max_element());
@@ -214,4 +233,28 @@ fn sizes(picture: &Picture) -> Vec<f64> {
         *root = scale * *root + ANYWHERE;
     }
     roots
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pixel_counts_as_often_as_any_other() {
+        // Of blocks of unlike sizes, some of them cut at the ends: what is drawn makes the mean of all pixels in the long run.
+        let size = [7, 5];
+        let sizes = (0..12).map(|block| 1.0 + f64::from(block % 5));
+        let survey = Survey::new(sizes).unwrap();
+        let mut counted = [0.0; 35];
+        let rounds = 20_000;
+        for seed in 0..rounds {
+            for drawn in survey.round(ROUND, seed) {
+                let ([x, y], weight) = pixel_of(&drawn, size);
+                counted[y * size[0] + x] += weight / rounds as f64;
+            }
+        }
+        for (pixel, counted) in counted.iter().enumerate() {
+            assert!((counted * 35.0 - 1.0).abs() < 0.05, "{pixel}: {}", counted * 35.0);
+        }
+    }
 }
