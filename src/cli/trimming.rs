@@ -12,7 +12,7 @@ use super::trade_scene::TradeScene;
 /// How long the exact pixels may take, in frames.
 const SHARE: f64 = 64.0;
 /// Decibels above the goal that are aimed at: some thousand pixels do not tell it closer.
-const MARGIN: f64 = 0.3;
+const MARGIN: f64 = 0.4;
 /// Frames that are timed of each choice.
 const TIMED: u8 = 5;
 /// How often a knob's range is halved.
