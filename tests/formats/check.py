@@ -253,14 +253,39 @@ def images_of_ome_zarr(folder):
 @check("ome_zarr", "zarr")
 def images_of_ome_zarr_py(folder):
     import zarr
+    from ome_zarr.format import FormatV04, FormatV05
     from ome_zarr.writer import write_image
 
-    for version in [2, 3]:
-        path = folder / f"written{version}.zarr"
+    halved = [dict.fromkeys("zyx", 2)]
+    for style, version, (unit, length_mm), kind in [
+        (FormatV04(), 2, ("millimeter", 1.0), "uint16"),
+        (FormatV05(), 3, ("micrometer", 1e-3), "uint8"),
+        (FormatV05(), 3, ("meter", 1e3), "float32"),
+    ]:
+        path = folder / f"{unit}.zarr"
         group = zarr.open_group(path, mode="w", zarr_format=version)
-        units = dict.fromkeys("zyx", "millimeter")
-        write_image(small("uint16"), group, axes="zyx", scale=dict(zip("xyz", SPACING)), axes_units=units)
-        same(path, small("uint16"), np.diag([*SPACING, 1.0]), folder)
+        scale = {name: step / length_mm for name, step in zip("xyz", SPACING)}
+        how = {"scale": scale, "axes_units": dict.fromkeys("zyx", unit), "scale_factors": halved, "fmt": style}
+        write_image(small(kind), group, axes="zyx", **how)
+        same(path, small(kind), np.diag([*SPACING, 1.0]), folder)
+        # Each level at its own places, as the file's own words and zarr have it.
+        stated = group.attrs.asdict()
+        levels = stated.get("ome", stated)["multiscales"][0]["datasets"]
+        assert len(levels) == 2, levels
+        for level in levels:
+            affine = np.eye(4)
+            for step in level["coordinateTransformations"]:
+                if step["type"] == "scale":
+                    affine[:3, :3] = np.diag(step["scale"][::-1]) * length_mm
+                else:
+                    affine[:3, 3] = np.array(step["translation"][::-1]) * length_mm
+            same(path / level["path"], group[level["path"]][:], affine, folder)
+
+    # A channel and a time of an image of five axes.
+    image = np.stack([small("int16") + at for at in range(4)]).reshape(2, 2, *small("int16").shape)
+    units = {"t": "second", **dict.fromkeys("zyx", "millimeter")}
+    write_image(image, str(folder / "five.zarr"), axes="tczyx", scale=dict(zip("xyz", SPACING)), axes_units=units)
+    same(folder / "five.zarr", image[0, 0], np.diag([*SPACING, 1.0]), folder)
 
 
 def write_series(folder, syntax, tilt=0.0, name="slice"):
