@@ -118,6 +118,7 @@ entity = [
 const PROJECTED: &str = r#"
 entity = [
     { volume = { file = "phantom:ball" }, projection = "maximum" },
+    { volume = { file = "phantom:ball" }, projection = "sabella" },
     { view = { size = [8, 8] } },
 ]
 "#;

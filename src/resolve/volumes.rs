@@ -66,7 +66,9 @@ fn classified(world: &mut World, entity: Entity, notices: &mut Vec<Notice>) -> R
 
 /// A value is looked up in a transfer function; what asks for gradients has no answer for it.
 fn projected(world: &mut World, entity: Entity) -> Result<(), Fault> {
-    fill_from::<Scalars, Classify>(world, entity, |scalars| Ok(gray(scalars)))?;
+    let of_hues = get::<Projection>(world, entity) == Some(Projection::Sabella);
+    let color = |part: f32| if of_hues { hue(part) } else { Color::from_srgb([part; 3]) };
+    fill_from::<Scalars, Classify>(world, entity, |scalars| Ok(over_all(scalars, color)))?;
     let classify = get::<Classify>(world, entity).unwrap_or_default();
     if classify.transfer.is_empty() || !classify.gradient.is_empty() {
         let problem = "shows one value a ray, which `classify` colors by `transfer` (without `gradient`) or `colormap`; state one of them or take `projection` away";
@@ -75,14 +77,20 @@ fn projected(world: &mut World, entity: Entity) -> Result<(), Fault> {
     fill(world, entity, (), |()| Ok(Material::default())).map(|_| ())
 }
 
-/// From black to white over all values but the outermost thousandths, opaque.
-fn gray(scalars: &Scalars) -> Classify {
+/// A hue of full saturation and value: blue at 0, over green, to red at 1.
+fn hue(part: f32) -> Color {
+    let from = |at: f32| (2.0 - 4.0 * (part - at).abs()).clamp(0.0, 1.0);
+    Color::from_srgb([from(1.0), from(0.5), from(0.0)])
+}
+
+/// The colors of 0..=1 over all values but the outermost thousandths, opaque.
+fn over_all(scalars: &Scalars, color: impl Fn(f32) -> Color) -> Classify {
     let counted = histogram(scalars, 4096);
     let (low, high) = (counted.quantile(0.001), counted.quantile(0.999));
     let high = if high > low { high } else { low + low.abs().max(1.0) };
     let point = |step: u16| {
         let part = f32::from(step) / 16.0;
-        let color = Some(Color::from_srgb([part; 3]));
+        let color = Some(color(part));
         TransferPoint { value: low + part * (high - low), opacity: 1.0, color }
     };
     Classify { transfer: (0..=16).map(point).collect(), ..Classify::default() }

@@ -4,7 +4,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
-use super::gathering::{Gathering, Hit, geometric};
+use super::gathering::{Gathering, Hit, Shaded, geometric};
 use super::lanes::{LANES, Packet, each};
 use super::march::{Slabs, march};
 use super::media::Media;
@@ -41,13 +41,15 @@ pub(crate) struct Scratch<E> {
     met: Met,
     /// Those and what they meet of projections.
     hits: Vec<Hit>,
+    /// What they are shown of projections.
+    shown: Vec<Shaded>,
 }
 
 impl<E: Default> Default for Scratch<E> {
     fn default() -> Self {
         let ahead = [i64::MIN, i64::MAX];
-        let (tiles, hits) = (Vec::new(), Vec::new());
-        Self { entered: E::default(), ahead, tiles, met: Met::default(), hits }
+        let (tiles, hits, shown) = (Vec::new(), Vec::new(), Vec::new());
+        Self { entered: E::default(), ahead, tiles, met: Met::default(), hits, shown }
     }
 }
 
@@ -86,7 +88,7 @@ impl<M: Media> BeamCaster<'_, M> {
         scratch: &mut Scratch<M::Entered>,
         counts: &mut Counts,
     ) -> bool {
-        let Scratch { entered, ahead, tiles, met, hits } = scratch;
+        let Scratch { entered, ahead, tiles, met, hits, shown } = scratch;
         self.polygons.meet(packet, met);
         let no_hits = met.is_empty() && self.projections.is_empty();
         let mut range = *ahead;
@@ -105,25 +107,27 @@ impl<M: Media> BeamCaster<'_, M> {
             each(packet.wanted).for_each(|lane| gathered[lane] = Gathering::new(met.of(lane)));
         } else {
             hits.clear();
+            shown.clear();
             self.projections.enter(packet, tiles);
             for lane in each(packet.wanted) {
                 let first = hits.len();
                 let [from, to] = met.of(lane).map(|n| n as usize);
                 hits.extend_from_slice(&met.hits()[from..to]);
                 let is_opaque = |hit: &Hit| self.polygons.is_opaque(hit);
-                self.projections.meet((packet, tiles, lane), (hits, first), is_opaque, counts);
+                let met = (&mut *hits, first, &mut *shown);
+                self.projections.meet((packet, tiles, lane), met, is_opaque, counts);
                 gathered[lane] = Gathering::new([first as u32, hits.len() as u32]);
             }
         }
         let hits = if self.projections.is_empty() { met.hits() } else { hits };
         let own = gathered.map(|ray| ray.hits());
+        let projected = |hit: &Hit| shown.get(hit.shown as usize).copied();
         march(
             (simd, self.media, entered, range),
             &self.slabs,
             hits,
             |hit, lane| {
-                let projected = self.projections.shade(hit);
-                projected
+                projected(hit)
                     .unwrap_or_else(|| self.polygons.shade(hit, packet.position(lane), packet.step))
             },
             (packet.wanted, &mut gathered),
@@ -138,7 +142,7 @@ impl<M: Media> BeamCaster<'_, M> {
             if surfaces || !hits.is_empty() {
                 color.attenuated = ray.attenuated();
                 if packet.step > self.edges_above {
-                    let plain = |hit: &Hit| match self.projections.shade(hit) {
+                    let plain = |hit: &Hit| match projected(hit) {
                         Some(_) => (DVec3::ZERO, 0.0),
                         None => self.polygons.plain(hit, packet.position(lane)),
                     };

@@ -26,8 +26,8 @@ pub(crate) struct Hit {
     pub depth: f64,
     /// Its number among the faces seen, in the order of the scene.
     pub face: u32,
-    /// What a projection shows; 0 of a face.
-    pub value: f32,
+    /// The number of what a projection shows among all that the packet is shown; beyond them of a face.
+    pub shown: u32,
 }
 
 /// The state of C and C_A of one ray (paper §2).

@@ -9,7 +9,7 @@
 //! what may not be. `polygons` says which faces a ray meets: `projected` says where on the picture each is and how deep,
 //! `beams` which rays may be in it, `binned` which faces a beam is near to, `seen` asks them of all faces; `looks`,
 //! `appearance`, `texture`, `cue` and `receiving` say how they look. `projection` is volumes of which a ray shows one value,
-//! `sought` along it.
+//! `sought` along it, or what `emitters` show.
 
 mod adaptive;
 mod appearance;
@@ -22,6 +22,7 @@ mod caster;
 mod crossing;
 mod cue;
 mod edges;
+mod emitters;
 mod exact_pixel;
 mod gathered;
 mod gathering;

@@ -79,7 +79,7 @@ impl Met {
             ends[lane] = sum;
         }
         hits.clear();
-        hits.resize(found.len(), Hit { depth: 0.0, face: 0, value: 0.0 });
+        hits.resize(found.len(), Hit { depth: 0.0, face: 0, shown: u32::MAX });
         for (lane, hit) in found {
             let at = &mut next[usize::from(*lane)];
             hits[*at as usize] = *hit;
@@ -152,7 +152,7 @@ impl<'a> Polygons<'a> {
                 let window = Camera::window(packet.position(lane));
                 if met.whole || face.holds(window) {
                     let depth = face.depth(window, self.camera);
-                    found.push((lane as u8, Hit { depth, face: met.face, value: 0.0 }));
+                    found.push((lane as u8, Hit { depth, face: met.face, shown: u32::MAX }));
                 }
             }
         }

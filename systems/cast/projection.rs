@@ -1,11 +1,14 @@
-//! Projections: of a volume a ray shows its greatest, its least or its mean value, colored by the volume's transfer function.
+//! Projections: of a volume a ray shows its greatest, its least or its mean value, colored by the volume's transfer function;
+//! or its greatest as one among emitters.
 //!
 //! What a ray shows is met like a polygon: at the depth of the value, so that polygons before it cover it and those behind are
-//! covered. A brick whose scalars cannot surpass what was found is leapt over, to the very samples that walking would meet.
+//! covered. A brick whose scalars cannot surpass what was found (and emit nothing, where they are to) is leapt over, to the very
+//! samples that walking would meet.
 
+use super::emitters::Emitters;
 use super::gathering::{Hit, Shaded};
 use super::lanes::Packet;
-use super::sought::Sought;
+use super::sought::{Found, Sought};
 use crate::components::{Classify, Clip, Material, Projection};
 use crate::view::camera::Camera;
 use crate::view::samples::Counts;
@@ -47,6 +50,7 @@ struct Projected<'a> {
     stated: &'a StatedProjection,
     classifier: Classifier,
     walk: Walk,
+    emitters: Emitters,
     /// Whether bricks are leapt over.
     skips: bool,
 }
@@ -64,7 +68,8 @@ impl<'a> Projections<'a> {
             let classifier = Classifier::new(&stated.classify, &stated.material, 1.0);
             let skips = skips && stated.shows != Projection::Mean;
             let walk = Walk::new(&stated.grid, camera, distance)?;
-            each.extend(walk.map(|walk| Projected { stated, classifier, walk, skips }));
+            let emitters = Emitters::new(&stated.classify, &stated.grid, camera);
+            each.extend(walk.map(|walk| Projected { stated, classifier, walk, emitters, skips }));
         }
         Ok(Self { each, camera, distance })
     }
@@ -83,49 +88,55 @@ impl<'a> Projections<'a> {
         }
     }
 
-    /// Puts what a ray shows among its own `hits`, those from number `first` on. Values behind the first of them that
-    /// `is_opaque` do not count.
+    /// Puts what a ray shows among its own `hits`, those from number `first` on, and how it looks among what is `shown`. Values
+    /// behind the first of them that `is_opaque` do not count.
     pub fn meet(
         &self,
         (packet, entered, lane): (&Packet, &[Tile], usize),
-        (hits, first): (&mut Vec<Hit>, usize),
+        (hits, first, shown): (&mut Vec<Hit>, usize, &mut Vec<Shaded>),
         is_opaque: impl Fn(&Hit) -> bool,
         counts: &mut Counts,
     ) {
         let end = hits[first..].iter().find(|hit| is_opaque(hit)).map(|hit| hit.depth);
         // The first sample at the opaque polygon or behind it; casts saturate.
         let end = end.map_or(i64::MAX, |depth| (depth / self.distance - 0.5).ceil() as i64);
-        for (number, (projected, tile)) in self.each.iter().zip(entered).enumerate() {
-            let window = Camera::window(packet.position(lane));
-            let place = |k: i64| self.camera.ray(window).at((k as f64 + 0.5) * self.distance);
-            let Some((value, k)) = projected.seek((tile, lane), end, place, counts) else {
+        for (projected, tile) in self.each.iter().zip(entered) {
+            let ray = self.camera.ray(Camera::window(packet.position(lane)));
+            let place = |k: i64| ray.at((k as f64 + 0.5) * self.distance);
+            let Some(found) = projected.seek((tile, lane), end, place, counts) else {
                 continue;
             };
-            let depth = (k as f64 + 0.5) * self.distance;
+            let depth = (found.sample as f64 + 0.5) * self.distance;
+            let way = found.sum * self.distance * ray.along.length();
             let at = first + hits[first..].partition_point(|hit| hit.depth <= depth);
-            hits.insert(at, Hit { depth, face: u32::MAX - number as u32, value });
+            hits.insert(at, Hit { depth, face: u32::MAX, shown: shown.len() as u32 });
+            shown.push(projected.shaded(found.value, depth, way));
         }
-    }
-
-    /// How a hit looks that is one of a projection.
-    pub fn shade(&self, hit: &Hit) -> Option<Shaded> {
-        let projected = self.each.get((u32::MAX - hit.face) as usize)?;
-        let opacity = f64::from(projected.classifier.opacity(hit.value, [0.0; 3]));
-        let color = projected.classifier.color(hit.value, [0.0; 3]).as_dvec3() * opacity;
-        Some(Shaded { color, opacity, plain_color: DVec3::ZERO, plain_opacity: opacity })
     }
 }
 
 impl Projected<'_> {
-    /// The value that a ray of a tile shows, of its samples before number `end`, and the number of that sample; `None` where it
-    /// shows nothing. `place` is the world point of a sample.
+    /// How a value looks at a depth, with that much density on the ray's way (both world units).
+    fn shaded(&self, value: f32, depth: f64, way: f64) -> Shaded {
+        let opacity = f64::from(self.classifier.opacity(value, [0.0; 3]));
+        let color = self.classifier.color(value, [0.0; 3]).as_dvec3();
+        let color = match self.stated.shows {
+            Projection::Sabella => self.emitters.shown(color, depth, way),
+            _ => color,
+        };
+        let color = color * opacity;
+        Shaded { color, opacity, plain_color: DVec3::ZERO, plain_opacity: opacity }
+    }
+
+    /// What a ray of a tile shows, of its samples before number `end`; `None` where it shows nothing. `place` is the world point
+    /// of a sample.
     fn seek(
         &self,
         (tile, lane): (&Tile, usize),
         end: i64,
         place: impl Fn(i64) -> DVec3,
         counts: &mut Counts,
-    ) -> Option<(f32, i64)> {
+    ) -> Option<Found> {
         let (first, end) = (tile.some[0], tile.some[1].min(end));
         let first = (first..end).find(|&k| self.walk.holds(tile, lane, k))?;
         // A ray leaves a grid once.
@@ -136,14 +147,23 @@ impl Projected<'_> {
         with_scalars!(scalars, values => match shows {
             Projection::Maximum => ray.best(
                 (values, holds, is_kept),
-                |a, b| a > b,
-                |brick| if self.skips { ranges.around(brick).high } else { f32::INFINITY },
+                (|a, b| a > b, |_| 0.0),
+                |brick| self.skips.then(|| ranges.around(brick).high),
+                counts,
+            ),
+            Projection::Sabella => ray.best(
+                (values, holds, is_kept),
+                (|a, b| a > b, |value| self.emitters.density(value)),
+                |brick| {
+                    let high = ranges.around(brick).high;
+                    (self.skips && high <= self.emitters.empty_to()).then_some(high)
+                },
                 counts,
             ),
             Projection::Minimum => ray.best(
                 (values, holds, is_kept),
-                |a, b| a < b,
-                |brick| if self.skips { ranges.around(brick).low } else { f32::NEG_INFINITY },
+                (|a, b| a < b, |_| 0.0),
+                |brick| self.skips.then(|| ranges.around(brick).low),
                 counts,
             ),
             Projection::Mean => ray.mean((values, holds, is_kept), counts),

@@ -17,18 +17,31 @@ pub(crate) struct Sought<'a> {
     pub first: i64,
 }
 
+/// What was found along a ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Found {
+    /// The value that is shown.
+    pub value: f32,
+    /// The number of its sample.
+    pub sample: i64,
+    /// The sum of the densities of all samples, where these have any.
+    pub sum: f64,
+}
+
 impl Sought<'_> {
-    /// The value that is `better` than all before it, and the number of its sample; bricks whose bound is not better than what
-    /// was found are leapt over. `holds` says whether a sample is to be looked at, `is_kept` whether its value counts.
+    /// The value that is `better` than all before it, and the sum of all densities, which are 0 or above; bricks that have a bound,
+    /// and no better one than what was found, are leapt over. `holds` says whether a sample is to be looked at, `is_kept` whether its
+    /// value counts.
     pub fn best<T: Scalar>(
         &self,
         (values, holds, is_kept): (&[T], impl Fn(i64) -> bool, impl Fn(i64) -> bool),
-        better: impl Fn(f32, f32) -> bool,
-        bound: impl Fn([usize; 3]) -> f32,
+        (better, density): (impl Fn(f32, f32) -> bool, impl Fn(f32) -> f64),
+        bound: impl Fn([usize; 3]) -> Option<f32>,
         counts: &mut Counts,
-    ) -> Option<(f32, i64)> {
+    ) -> Option<Found> {
         let (mut found, mut k): (Option<(f32, i64)>, i64) = (None, self.first);
-        let mut bounded = ([usize::MAX; 3], f32::NAN);
+        let mut sum = 0.0;
+        let mut bounded = ([usize::MAX; 3], None);
         while holds(k) {
             let place = self.place(k);
             let cell = self.cell(place);
@@ -36,7 +49,8 @@ impl Sought<'_> {
             if brick != bounded.0 {
                 bounded = (brick, bound(brick));
             }
-            if found.is_some_and(|(best, _)| !better(bounded.1, best)) {
+            let surpassed = |best: f32| bounded.1.is_some_and(|bound| !better(bound, best));
+            if found.is_some_and(|(best, _)| surpassed(best)) {
                 counts.cells_skipped += 1;
                 k += self.steps_within(place, brick) + 1;
                 continue;
@@ -44,12 +58,14 @@ impl Sought<'_> {
             counts.samples += 1;
             let value = self.value(values, place, cell);
             let surpasses = found.map_or(!value.is_nan(), |(best, _)| better(value, best));
-            if surpasses && is_kept(k) {
-                found = Some((value, k));
+            let density = density(value);
+            if (surpasses || density > 0.0) && is_kept(k) {
+                sum += density;
+                found = if surpasses { Some((value, k)) } else { found };
             }
             k += 1;
         }
-        found
+        found.map(|(value, sample)| Found { value, sample, sum })
     }
 
     /// The mean of all values that count, and the number of the last sample.
@@ -57,7 +73,7 @@ impl Sought<'_> {
         &self,
         (values, holds, is_kept): (&[T], impl Fn(i64) -> bool, impl Fn(i64) -> bool),
         counts: &mut Counts,
-    ) -> Option<(f32, i64)> {
+    ) -> Option<Found> {
         let (mut sum, mut number, mut last) = (0.0_f64, 0_u64, self.first);
         let mut k = self.first;
         while holds(k) {
@@ -71,7 +87,8 @@ impl Sought<'_> {
             }
             k += 1;
         }
-        (number > 0).then(|| ((sum / number as f64) as f32, last))
+        let value = (sum / number as f64) as f32;
+        (number > 0).then_some(Found { value, sample: last, sum: 0.0 })
     }
 
     fn place(&self, k: i64) -> [i64; 3] {

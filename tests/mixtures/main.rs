@@ -3,6 +3,7 @@
 mod agreement;
 mod composing;
 mod cues;
+mod emitting;
 mod furnished;
 mod judged;
 mod labeled;

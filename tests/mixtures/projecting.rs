@@ -6,7 +6,7 @@ use gelray::scene::{Source, load};
 use crate::{EVERY_PIXEL, KEY, at, difference, level, made, pixels, run, stated, view};
 
 /// Numbers without order.
-fn noise(at: usize) -> f32 {
+pub(crate) fn noise(at: usize) -> f32 {
     let mixed = (at as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     ((mixed ^ mixed >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 40) as f32 / (1 << 24) as f32
 }
@@ -32,7 +32,7 @@ fn along_y(shows: Projection, size: [usize; 3], sampling: Sampling) -> (Vec<f32>
     (values, Renderer::new().unwrap().render(&mut world).unwrap().picture)
 }
 
-fn every_pixel() -> Sampling {
+pub(crate) fn every_pixel() -> Sampling {
     Sampling {
         coarsest: 4,
         finest: 4,
@@ -59,6 +59,7 @@ fn each_pixel_is_the_greatest_least_or_mean_of_the_samples_on_its_ray() {
                 Projection::Maximum => samples.fold(0.0, f32::max),
                 Projection::Minimum => samples.fold(1.0, f32::min),
                 Projection::Mean => samples.clone().sum::<f32>() / samples.count() as f32,
+                Projection::Sabella => unreachable!("not one value alone"),
             }
         };
         // The box over a pixel weighs the rays around it: 6/8 and 1/8 on either side, along both axes.
@@ -98,7 +99,7 @@ fn leaping_over_bricks_changes_no_bit_on_any_number_of_threads() {
 }
 
 /// A ball of values that are greatest within it, as one value a ray.
-fn ball(shows: &str) -> String {
+pub(crate) fn ball(shows: &str) -> String {
     format!(
         "[[entity]]\nname = \"ball\"\nvolume = {{ file = \"phantom:ball\" }}\nprojection = \"{shows}\"\n\
          classify = {{ transfer = [{{ value = 0, opacity = 0, color = \"white\" }}, {{ value = 1, opacity = 1, color = \"white\" }}] }}\n"
