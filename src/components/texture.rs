@@ -54,12 +54,14 @@ impl Textured {
 }
 
 /// What lies outside a texture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Wrap {
     /// The texture again.
     #[default]
     Repeat,
+    /// Its mirror image, and then the texture again.
+    Mirror,
     /// Its outermost texels.
     Clamp,
     /// Nothing: opacity 0.

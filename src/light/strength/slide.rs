@@ -180,6 +180,10 @@ impl Overlap {
         let all = count as f64;
         match wrap {
             Wrap::Repeat => Self { low: low.rem_euclid(all), width: width.min(all), count, wrap },
+            Wrap::Mirror => {
+                let both = 2.0 * all;
+                Self { low: low.rem_euclid(both), width: width.min(both), count, wrap }
+            }
             // Farther out there is nothing new, and differences of large numbers would lose the width.
             Wrap::Clamp | Wrap::Vanish => {
                 Self { low: low.clamp(-width - 1.0, all + 1.0), width, count, wrap }
@@ -191,9 +195,9 @@ impl Overlap {
     fn texels(self) -> impl Iterator<Item = (usize, f64)> {
         let Self { low, width, count, wrap } = self;
         let (high, all) = (low + width, count as f64);
-        // Clamping makes the outermost texels endless; vanishing cuts the interval; repeating wraps it round.
+        // Clamping makes the outermost texels endless; vanishing cuts the interval; repeating wraps it round, mirrored or not.
         let (first, end) = match wrap {
-            Wrap::Repeat => (low.floor(), high.ceil()),
+            Wrap::Repeat | Wrap::Mirror => (low.floor(), high.ceil()),
             Wrap::Clamp => (low.floor().clamp(0.0, all - 1.0), high.ceil().clamp(1.0, all)),
             Wrap::Vanish => (low.floor().clamp(0.0, all), high.ceil().clamp(0.0, all)),
         };
@@ -204,7 +208,11 @@ impl Overlap {
                 to = if texel + 1 == count { f64::INFINITY } else { to };
             }
             let share = (high.min(to) - low.max(from)).max(0.0) / width;
-            (texel % count, share)
+            let texel = match wrap {
+                Wrap::Mirror => (texel % (2 * count)).min(2 * count - 1 - texel % (2 * count)),
+                _ => texel % count,
+            };
+            (texel, share)
         })
     }
 }

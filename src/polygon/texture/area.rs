@@ -18,7 +18,8 @@ pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Fo
         let sides = footprint.in_texels(level.size);
         let reach = sides.x_axis.abs() + sides.y_axis.abs();
         let met = sides.determinant().abs() + reach.x + reach.y;
-        met <= MOST_TEXELS || wrap != Wrap::Repeat && level.texels.len() as f64 <= MOST_TEXELS
+        let is_endless = matches!(wrap, Wrap::Repeat | Wrap::Mirror);
+        met <= MOST_TEXELS || !is_endless && level.texels.len() as f64 <= MOST_TEXELS
     };
     match levels.iter().find(fits) {
         Some(level) => mean(level, wrap, uv, widened(footprint.in_texels(level.size))),
@@ -33,7 +34,8 @@ fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, sides: DMat2) -> Vec4 {
     let (p, q) = (sides.x_axis / 2.0, sides.y_axis / 2.0);
     let reach = p.abs() + q.abs();
     // Wholly outside, how far outside makes no difference; near the texture the areas keep their digits.
-    let at = (uv * size).clamp(-reach - 1.0, size + reach + 1.0);
+    let end = if wrap == Wrap::Mirror { 2.0 * size } else { size };
+    let at = (uv * size).clamp(-reach - 1.0, end + reach + 1.0);
     let corners = [at - p - q, at + p - q, at + p + q, at - p + q];
     let rows = Cells::new(at.y - reach.y..at.y + reach.y, level.size[1], wrap);
     let mut sum = DVec4::ZERO;
@@ -60,7 +62,7 @@ impl Cells {
     fn new(span: Range<f64>, size: usize, wrap: Wrap) -> Self {
         let (size, first, end) = (size as i64, span.start.floor() as i64, span.end.ceil() as i64);
         let numbers = match wrap {
-            Wrap::Repeat => first..end,
+            Wrap::Repeat | Wrap::Mirror => first..end,
             Wrap::Vanish => first.max(0)..end.min(size),
             Wrap::Clamp => first.clamp(0, size - 1)..end.clamp(1, size),
         };

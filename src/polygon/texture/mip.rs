@@ -65,6 +65,10 @@ pub(super) fn wrapped(index: i64, size: usize, wrap: Wrap) -> Option<usize> {
     }
     match wrap {
         Wrap::Repeat => Some(index.rem_euclid(size as i64) as usize),
+        Wrap::Mirror => {
+            let (size, index) = (size as i64, index.rem_euclid(2 * size as i64));
+            Some(index.min(2 * size - 1 - index) as usize)
+        }
         Wrap::Clamp => Some(index.clamp(0, size as i64 - 1) as usize),
         Wrap::Vanish => None,
     }
@@ -130,9 +134,10 @@ mod tests {
     }
 
     #[test]
-    fn an_index_outside_repeats_clamps_or_vanishes() {
+    fn an_index_outside_repeats_is_mirrored_clamps_or_vanishes() {
         let at = |wrap| [-4, -1, 0, 2, 3, 7].map(|i| wrapped(i, 3, wrap));
         assert_eq!(at(Wrap::Repeat), [2, 2, 0, 2, 0, 1].map(Some));
+        assert_eq!(at(Wrap::Mirror), [2, 0, 0, 2, 2, 1].map(Some));
         assert_eq!(at(Wrap::Clamp), [0, 0, 0, 2, 2, 2].map(Some));
         assert_eq!(at(Wrap::Vanish), [None, None, Some(0), Some(2), None, None]);
     }

@@ -96,11 +96,16 @@ impl MappedTexture {
         area::average(&self.levels, self.wrap, self.placed(uv), footprint)
     }
 
-    /// A finite `uv`, within the texture itself where that repeats, so that fractions of a texel keep their digits.
+    /// A finite `uv`, within the texture itself (or that and its mirror image) where it repeats, so that fractions of a texel
+    /// keep their digits.
     fn placed(&self, uv: DVec2) -> DVec2 {
         let finite = |x: f64| if x.is_nan() { 0.5 } else { x.clamp(-1e9, 1e9) };
         let uv = DVec2::new(finite(uv.x), finite(uv.y));
-        if self.wrap == Wrap::Repeat { uv - uv.floor() } else { uv }
+        match self.wrap {
+            Wrap::Repeat => uv - uv.floor(),
+            Wrap::Mirror => uv - 2.0 * (uv / 2.0).floor(),
+            Wrap::Clamp | Wrap::Vanish => uv,
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 use TextureFilter::{Bilinear, Ellipse, Nearest, Trilinear};
 
-const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Vanish];
+const WRAPS: [Wrap; 4] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Vanish];
 const FILTERS: [TextureFilter; 4] = [Ellipse, Trilinear, Bilinear, Nearest];
 const SIZES: [[usize; 2]; 7] = [[1, 1], [1, 7], [5, 1], [2, 2], [37, 23], [300, 3], [128, 128]];
 
@@ -119,6 +119,35 @@ fn what_vanishes_counts_by_the_area_that_the_texture_shares_with_the_footprint()
     let texture = MappedTexture::new(&white([64, 64]), Wrap::Vanish, Ellipse);
     assert!((texture.average(DVec2::splat(0.5), &diamond).w - 0.5).abs() < 1e-6);
     assert!((texture.average(DVec2::new(1.0, 0.5), &diamond).w - 0.375).abs() < 1e-6);
+}
+
+#[test]
+fn what_is_mirrored_is_a_picture_of_itself_and_its_mirror_images_that_repeats() {
+    for size in [[16, 8], [1, 4], [64, 32]] {
+        let own = speckled(size);
+        let fold = |x: usize, n: usize| x.min(2 * n - 1 - x);
+        let whole = picture([2 * size[0], 2 * size[1]], |x, y| {
+            own.pixel(fold(x, size[0]), fold(y, size[1]))
+        });
+        let mirrored = MappedTexture::new(&own, Wrap::Mirror, Ellipse);
+        let repeated = MappedTexture::new(&whole, Wrap::Repeat, Ellipse);
+        for side in [0.0, 0.03, 0.4, 1.7] {
+            for uv in [[0.3, 0.8], [1.2, 0.1], [-0.4, 1.9], [7.7, -5.3], [1.0, -1.0]] {
+                let uv = DVec2::from(uv);
+                let sides = [DVec2::new(side, 0.1 * side), DVec2::new(-0.2 * side, side)];
+                let footprint = |part: f64| Footprint::new(sides[0] * part, sides[1] * part);
+                let near = |a: Vec4, b: Vec4| a.abs_diff_eq(b, 1e-5);
+                let what = format!("{size:?} {side} {uv}");
+                let average = repeated.average(uv / 2.0, &footprint(0.5));
+                assert!(near(mirrored.average(uv, &footprint(1.0)), average), "{what}");
+                for filter in FILTERS {
+                    let a = mirrored.with(Wrap::Mirror, filter).filtered(uv, &footprint(1.0));
+                    let b = repeated.with(Wrap::Repeat, filter).filtered(uv / 2.0, &footprint(0.5));
+                    assert!(near(a, b), "{filter:?} {what}: {a} {b}");
+                }
+            }
+        }
+    }
 }
 
 #[test]

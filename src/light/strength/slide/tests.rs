@@ -54,6 +54,8 @@ fn outside_a_texture_it_repeats_clamps_or_vanishes() {
     assert_eq!(at(Wrap::Repeat, 2.5), 0.0);
     assert_eq!(at(Wrap::Repeat, -2.5), 3.0);
     assert_eq!(at(Wrap::Repeat, 4001.5), at(Wrap::Repeat, 1.5));
+    assert_eq!([2.5, 5.5, 6.5, -2.5].map(|x| at(Wrap::Mirror, x)), [3.0, 0.0, 0.0, 0.0]);
+    assert_eq!(at(Wrap::Mirror, 8001.5), at(Wrap::Mirror, 1.5));
     assert_eq!(at(Wrap::Clamp, 2.5), 3.0);
     assert_eq!(at(Wrap::Vanish, 2.5), 0.0);
     assert_eq!(at(Wrap::Vanish, 1.5), 3.0);
