@@ -28,11 +28,17 @@ pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
         (true, false) => ", in the colors of its materials",
         (true, true) => "",
     };
+    let clear = triangles.opacities.iter().filter(|opacity| **opacity < 1.0).count();
+    let clear = if clear > 0 { format!(", {clear} of them seen through") } else { String::new() };
     let rows = [
         ("file", path.display().to_string()),
         (
             "triangles",
-            format!("{} of {} points, {format}{colors}", triangles.faces.len(), enclosed.points),
+            format!(
+                "{} of {} points, {format}{colors}{clear}",
+                triangles.faces.len(),
+                enclosed.points
+            ),
         ),
         ("extent", extent),
         ("area", number(enclosed.area)),

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Mesh {
     /// An STL, PLY, OBJ, glTF or VTK PolyData: a path, relative to the scene's folder or to the data folder. Its triangles are
     /// flat, each of one normal, unless `smooth` is stated, and are `textured` where the file says that they lie in a texture; where vertices have colors, each triangle has the mean of its own in place of the surface's.
-    /// Where the materials of a glTF or OBJ have colors, its triangles have these too, and where they have pictures, these lie on them, unless `textured` states others.
+    /// Where the materials of a glTF or OBJ have colors, its triangles have these and their opacity (times that of the `surface`) too, and where they have pictures, these lie on them, unless `textured` states others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// With `file`: which way its axes run; default `lps`, as the world's, but of glTF `y-up`.

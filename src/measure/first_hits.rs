@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::components::{Classify, Clip, Material, Order, Sampling, Surface, View, Voxelize};
 use crate::error::Error;
-use crate::polygon::face::{Face, Faces};
+use crate::polygon::face::{Face, FaceOpacities, Faces};
 use crate::polygon::smooth::CornerNormals;
 use crate::view::camera::Camera;
 use crate::view::composite::thicken;
@@ -74,14 +74,17 @@ pub fn first_hits(world: &World) -> Result<FirstHits, Error> {
 }
 
 /// What is traced, and what is known of it.
-type SeenFaces<'a> = (&'a Faces, &'a Surface, Option<&'a CornerNormals>, Option<&'a Order>);
+type SeenFaces<'a> = (&'a Faces, &'a Surface, Own<'a>, Option<&'a Order>);
+
+/// What faces have of their own.
+type Own<'a> = (Option<&'a FaceOpacities>, Option<&'a CornerNormals>);
 
 /// All polygons that are traced on a view.
 fn traced(world: &World, camera: &Camera) -> Vec<Traced> {
     let mut all = world.query::<SeenFaces<'_>>().without::<&Voxelize>();
-    let of_entity = |(faces, surface, normals, order): SeenFaces| {
-        let opacity = f64::from(surface.opacity);
+    let of_entity = |(faces, surface, (opacities, normals), order): SeenFaces| {
         let traced = |(at, face): (usize, &Face)| {
+            let opacity = f64::from(surface.opacity * FaceOpacities::of(opacities, at));
             let bent = normals.and_then(|normals| normals.over(at, face));
             Traced::new((face, bent), camera, opacity, number(order))
         };

@@ -46,6 +46,19 @@ impl FaceColors {
     }
 }
 
+/// For each of the faces of one entity the part of their surface's opacity that it has, 0..=1.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FaceOpacities(pub Shared<f32>);
+
+impl FaceOpacities {
+    /// The part that face number `at` has: all of it where none is stated.
+    #[must_use]
+    #[inline]
+    pub fn of(opacities: Option<&Self>, at: usize) -> f32 {
+        opacities.and_then(|opacities| opacities.0.get(at).copied()).unwrap_or(1.0)
+    }
+}
+
 impl Faces {
     /// Bytes that the polygons take.
     #[must_use]

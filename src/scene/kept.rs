@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use crate::components::{Classify, Labels, Mesh, Molecule, Texture, Volume};
 use crate::formats::Loaded;
 use crate::measure::sigma::{Sigma, sigma};
-use crate::polygon::face::{FaceColors, Faces};
+use crate::polygon::face::{FaceColors, FaceOpacities, Faces};
 use crate::polygon::smooth::StatedNormals;
 use crate::polygon::texture::{OwnTextures, TexturePlaces};
 use crate::view::picture::Picture;
@@ -56,6 +56,7 @@ pub(super) struct KeptMesh {
     pub asked: [bool; 3],
     pub faces: Faces,
     pub colors: Option<FaceColors>,
+    pub opacities: Option<FaceOpacities>,
     pub normals: Option<StatedNormals>,
     pub places: Option<TexturePlaces>,
     pub own: OwnTextures,

@@ -10,17 +10,18 @@ use super::mesh_pictures;
 use crate::components::{Color, Mesh, Smooth, Space, Textured};
 use crate::error::Error;
 use crate::formats::meshes::{AtCorners, Triangles, read_mesh};
-use crate::polygon::face::{Face, FaceColors, Faces};
+use crate::polygon::face::{Face, FaceColors, FaceOpacities, Faces};
 use crate::polygon::smooth::StatedNormals;
 use crate::polygon::texture::{MappedTexture, OwnTextures, TexturePlaces};
 use crate::shared::Shared;
 
-/// The triangles of a file in the world: their faces, and of each a color, normals and places in a texture, if any has them;
+/// The triangles of a file in the world: their faces, and of each a color, an opacity, normals and places in a texture, if any has them;
 /// and the textures that its own pictures are, and of each face which.
 #[derive(Default)]
 struct Read {
     faces: Vec<Face>,
     colors: Vec<Color>,
+    opacities: Vec<f32>,
     normals: Vec<[DVec3; 3]>,
     places: Vec<[DVec2; 3]>,
     textures: Vec<MappedTexture>,
@@ -32,11 +33,14 @@ pub(super) fn read(loading: &mut Loading) -> Result<(), Error> {
     for entry in loading.nouns(&["mesh"]) {
         let Some(mesh) = loading.get::<Mesh>(entry) else { continue };
         let Some(file) = mesh.file.clone() else { continue };
-        let KeptMesh { faces, colors, normals, places, own, .. } =
+        let KeptMesh { faces, colors, opacities, normals, places, own, .. } =
             kept_or_read(loading, entry, mesh, &file)?;
         loading.add(entry, (faces, own));
         if let Some(colors) = colors {
             loading.add(entry, (colors,));
+        }
+        if let Some(opacities) = opacities {
+            loading.add(entry, (opacities,));
         }
         if let Some(normals) = normals {
             loading.add(entry, (normals,));
@@ -65,7 +69,7 @@ fn kept_or_read(
         return Ok(kept.clone());
     }
     let before = loading.files.len();
-    let Read { faces, colors, normals, places, textures, of } =
+    let Read { faces, colors, opacities, normals, places, textures, of } =
         of_file(loading, entry, file, (&mesh, asked))?;
     let is_laid = asked[1] || !textures.is_empty();
     let kept = KeptMesh {
@@ -73,6 +77,7 @@ fn kept_or_read(
         asked,
         faces: Faces(Arc::new(faces)),
         colors: (!colors.is_empty()).then(|| FaceColors(Shared::new(colors))),
+        opacities: (!opacities.is_empty()).then(|| FaceOpacities(Shared::new(opacities))),
         // Where they are asked for and there are none, none take the place of those of another file.
         normals: asked[0].then(|| StatedNormals(Shared::new(normals))),
         places: is_laid.then(|| TexturePlaces(Shared::new(places))),
@@ -126,7 +131,7 @@ fn of_file(
     Ok(read)
 }
 
-/// Triangles without normals that are not asked for, without places in a texture, and without the colors of materials.
+/// Triangles without normals that are not asked for, without places in a texture, and without what is of materials.
 fn as_asked(mut triangles: Triangles, [smooth, textured, own]: [bool; 3]) -> Triangles {
     if !smooth {
         triangles.normals = AtCorners::default();
@@ -137,6 +142,7 @@ fn as_asked(mut triangles: Triangles, [smooth, textured, own]: [bool; 3]) -> Tri
     // They are there for the pictures of the file, and are not to tint one that the scene lays there.
     if !own {
         triangles.face_colors = Vec::new();
+        triangles.opacities = Vec::new();
     }
     triangles
 }
@@ -193,6 +199,7 @@ fn in_the_world(
         let Ok(made) = Face::new(vec![corners.to_vec()]) else { continue };
         read.faces.push(made);
         read.colors.extend(triangles.color(at).or(plain));
+        read.opacities.extend(triangles.opacities.get(at));
         read.of.extend(of.get(at));
         if bent {
             let own = triangles.normals.of(at, *face);

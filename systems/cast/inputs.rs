@@ -11,7 +11,7 @@ use crate::components::{
 use crate::light::shading::{Lamps, Reflectance, lamps};
 use crate::light::strength::LightStrength;
 use crate::light::strength::ProjectedBy;
-use crate::polygon::face::{FaceColors, Faces};
+use crate::polygon::face::{FaceColors, FaceOpacities, Faces};
 use crate::polygon::smooth::CornerNormals;
 use crate::polygon::texture::TexturedBy;
 use crate::schedule::ProductKey;
@@ -57,6 +57,7 @@ pub(crate) struct TracedPolygons {
     pub faces: Faces,
     pub surface: Surface,
     pub colors: Option<FaceColors>,
+    pub opacities: Option<FaceOpacities>,
     pub normals: Option<CornerNormals>,
     pub textured: Option<TexturedBy>,
     /// The grid of the volume that they cast their shadows in.
@@ -123,17 +124,18 @@ impl Inputs {
 /// The polygons that stay polygons, in the order of the scene.
 fn hybrid_polygons(world: &World) -> Vec<TracedPolygons> {
     type Seen<'a> = (&'a Order, &'a Faces, &'a Surface, Own<'a>, Option<&'a TexturedBy>);
-    type Own<'a> = (Option<&'a FaceColors>, Option<&'a CornerNormals>);
+    type Own<'a> = (Option<&'a FaceColors>, Option<&'a FaceOpacities>, Option<&'a CornerNormals>);
     let volumes = volumes(world);
     let mut query = world.query::<Seen<'_>>().without::<&Voxelize>();
     let mut polygons: Vec<_> = query.iter().collect();
     polygons.sort_by_key(|(order, ..)| **order);
     let shown =
-        |(_, faces, surface, (colors, normals), textured): <Seen<'_> as hecs::Query>::Item<'_>| {
+        |(_, faces, surface, (colors, opacities, normals), textured): <Seen<'_> as hecs::Query>::Item<'_>| {
             TracedPolygons {
                 faces: faces.clone(),
                 surface: surface.clone(),
                 colors: colors.cloned(),
+                opacities: opacities.cloned(),
                 normals: normals.cloned(),
                 textured: textured.cloned(),
                 grid: around(&volumes, || faces.middle()).map(|volume| volume.grid),

@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::appearance::{Answer, Appearance, Pointing};
 use super::inputs::{Inputs, TracedPolygons};
 use super::texture::FaceTexture;
-use crate::polygon::face::FaceColors;
+use crate::polygon::face::{FaceColors, FaceOpacities};
 use crate::polygon::texture::Lies;
 use crate::view::camera::Camera;
 
@@ -47,14 +47,16 @@ impl<'a> Look<'a> {
 
     #[inline]
     fn appearance(&self, at: usize, normal: Vec3) -> Appearance<'a> {
-        let TracedPolygons { faces, surface, colors, normals, textured, .. } = self.traced;
+        let TracedPolygons { faces, surface, colors, opacities, normals, textured, .. } =
+            self.traced;
         let face = &faces.0[at];
         let texture =
             textured.as_ref().and_then(|by| FaceTexture::new(by, (at, face), self.camera));
         let color: Vec3 = FaceColors::of(colors.as_ref(), at).unwrap_or(surface.color).0;
+        let opacity = surface.opacity * FaceOpacities::of(opacities.as_ref(), at);
         let bent = normals.as_ref().and_then(|normals| normals.over(at, face));
         let pointing = bent.map_or(Pointing::Flat(normal), Pointing::Bent);
-        Appearance::new(self.answer, (color, surface.opacity), (face, pointing), texture)
+        Appearance::new(self.answer, (color, opacity), (face, pointing), texture)
     }
 
     /// Does something with the appearance of the face of that number, whose unit normal is `normal`.

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::light::shading::{Lamps, Reflectance, lamps};
 use crate::polygon::coverage::REACH;
 use crate::polygon::coverage::{Ball, Covered, Flat};
-use crate::polygon::face::{Face, FaceColors, Faces};
+use crate::polygon::face::{Face, FaceColors, FaceOpacities, Faces};
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::view::observer;
 use crate::volume::bricks::{Bricks, VOXELS};
@@ -28,6 +28,8 @@ struct Inputs {
     surface: Surface,
     /// Colors in place of the surface's.
     own: Option<FaceColors>,
+    /// Parts of the surface's opacity.
+    opacities: Option<FaceOpacities>,
     /// How; its operator is not looked at, and always the default.
     voxelize: Voxelize,
     grid: Grid,
@@ -49,14 +51,14 @@ impl System for ScanConvert {
             Entity,
             &'a Faces,
             &'a Surface,
-            Option<&'a FaceColors>,
+            (Option<&'a FaceColors>, Option<&'a FaceOpacities>),
             Option<&'a Voxelize>,
             Option<&'a Name>,
         );
         let (volumes, shadows) = (volumes(world), casts_shadows(world));
         let ambient_apart = observer::is_cued(world);
         let mut query = world.query::<Stated<'_>>();
-        for (entity, faces, surface, own, voxelize, name) in &mut query {
+        for (entity, faces, surface, (own, opacities), voxelize, name) in &mut query {
             out.watch().check()?;
             let name = name.map_or("polygon", |name| &name.0);
             if voxelize.is_none() && !shadows {
@@ -77,12 +79,14 @@ impl System for ScanConvert {
                 matte: Matte::default(),
                 calibrated: voxelize.is_none_or(|voxelize| voxelize.calibrated),
             };
-            let (faces, surface, own) = (faces.clone(), surface.clone(), own.cloned());
+            let (faces, surface) = (faces.clone(), surface.clone());
+            let (own, opacities) = (own.cloned(), opacities.cloned());
             let (grid, unit) = (volume.grid, volume.unit);
             let inputs = Inputs {
                 faces,
                 surface,
                 own,
+                opacities,
                 voxelize,
                 grid,
                 unit,
@@ -135,8 +139,11 @@ fn casts_shadows(world: &World) -> bool {
 impl Inputs {
     fn convert(&self) -> Result<Coverage, String> {
         let faces = &self.faces.0;
-        let flats: Option<Vec<Flat>> =
-            faces.par_iter().map(|face| Flat::new(face, &self.grid)).collect();
+        let flat = |(at, face): (usize, &Face)| {
+            let opacity = f64::from(FaceOpacities::of(self.opacities.as_ref(), at));
+            Flat::new(face, &self.grid).map(|flat| flat.seen_through(opacity))
+        };
+        let flats: Option<Vec<Flat>> = faces.par_iter().enumerate().map(flat).collect();
         let flats = flats.ok_or(
             "a vertex is more than 1e100 voxels away from the volume; state vertices in the world's units",
         )?;

@@ -11,6 +11,7 @@ mod maps;
 mod operators;
 mod projecting;
 mod removing;
+mod seen_through;
 mod shadows;
 mod shafts;
 mod speckle;

@@ -74,13 +74,18 @@ fn a_mesh_is_told_by_extent_area_and_whether_it_is_closed() {
     place.write("inward.obj", format!("{points}f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"));
     assert!(place.done("info inward.obj").out.contains("face inward"));
     place.done("render cross.toml -o bark.png --size 12x8");
-    place.write("tree.mtl", "newmtl bark\nKd 1 1 1\nmap_Kd bark.png\nnewmtl leaf\nmap_Kd no.png\n");
+    place.write(
+        "tree.mtl",
+        "newmtl bark\nKd 1 1 1\nmap_Kd bark.png\nnewmtl leaf\nd 0.5\nmap_Kd no.png\n",
+    );
     let faces = "mtllib tree.mtl\nusemtl bark\nf 1 3 2\nusemtl leaf\nf 1 2 4\n";
     place.write("tree.obj", format!("{points}{faces}"));
     let out = place.done("info tree.obj").out;
-    for fact in
-        ["in the colors of its materials", "bark.png, 12 × 8 pixels", "no.png, which is not found"]
-    {
+    for fact in [
+        "in the colors of its materials, 1 of them seen through",
+        "bark.png, 12 × 8 pixels",
+        "no.png, which is not found",
+    ] {
         assert!(out.contains(fact), "{fact} in {out}");
     }
 }

@@ -84,11 +84,12 @@ impl MeshPicture {
 }
 
 impl PictureAlpha {
-    /// What its own alpha is multiplied by.
-    pub(super) fn factor(self) -> f32 {
+    /// How opaque a surface is that has no picture, 0..=1.
+    pub(super) fn alone(self) -> f32 {
         match self {
-            Self::Ignored => 1.0,
-            Self::Opacity(factor) | Self::Cut { factor, .. } => factor,
+            Self::Opacity(factor) => factor,
+            Self::Cut { factor, least } if factor < least => 0.0,
+            Self::Ignored | Self::Cut { .. } => 1.0,
         }
     }
 

@@ -45,6 +45,8 @@ pub struct Triangles {
     pub faces: Vec<[u32; 3]>,
     /// The color of each triangle, where vertices have none; empty where the file states none.
     pub face_colors: Vec<Color>,
+    /// How opaque the material of each triangle is, 0..=1; empty where all are opaque.
+    pub opacities: Vec<f32>,
     /// Normals at their corners, of any length.
     pub normals: AtCorners<DVec3>,
     /// Where their corners lie in a texture: (0, 0) is its top left corner and (1, 1) its bottom right one.

@@ -202,7 +202,8 @@ impl Filling<'_> {
         1.0 - through
     }
 
-    /// Calls `covers` with the place in the brick, the part of the disc and the height of every voxel that is covered.
+    /// Calls `covers` with the place in the brick, the part of the disc (of what is seen through, as much of it as is opaque) and the
+    /// height of every voxel that is covered.
     fn visit(&self, near: NearBrick, face: usize, mut covers: impl FnMut(usize, f64, f64)) {
         let (flat, reach) = (&self.flats[face], self.ball.reach());
         let [z, y, x] = near.zyx;
@@ -219,6 +220,7 @@ impl Filling<'_> {
                     let height = flat.height(point);
                     if height.abs() < reach {
                         let part = if near.whole { 1.0 } else { self.part(flat, point, height) };
+                        let part = part * flat.opacity();
                         if part > 0.0 {
                             let at = ((z % EDGE) * EDGE + y % EDGE) * EDGE + x % EDGE;
                             covers(at, part, height);

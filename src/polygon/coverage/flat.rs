@@ -20,6 +20,8 @@ pub struct Flat {
     /// World units from the plane to a parallel one a voxel away, along the world normal: the spacing for a plane
     /// perpendicular to an axis.
     pub layer: f64,
+    /// The part of its surface's opacity that it has, 0..=1: a disc that it covers counts as covered in that part.
+    opacity: f64,
     right: DVec3,
     up: DVec3,
     outlines: Vec<Vec<DVec2>>,
@@ -59,7 +61,29 @@ impl Flat {
         // Squares of coordinates are taken further on.
         let far = low.abs().max(high.abs()).max_element();
         let sound = far < 1e100 && layer.is_normal() && normal.is_finite();
-        sound.then_some(Self { normal, origin, layer, right, up, outlines, low, high })
+        sound.then_some(Self {
+            normal,
+            origin,
+            layer,
+            opacity: 1.0,
+            right,
+            up,
+            outlines,
+            low,
+            high,
+        })
+    }
+
+    /// The same with that part of its surface's opacity, 0..=1.
+    #[must_use]
+    pub(crate) fn seen_through(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// The part of its surface's opacity that it has, 0..=1.
+    #[must_use]
+    pub(super) fn opacity(&self) -> f64 {
+        self.opacity
     }
 
     /// Signed distance of a point from the plane, voxels.

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{loaded, only};
 use crate::components::{Textured, Wrap};
 use crate::formats::pictures::write_picture;
-use crate::polygon::face::FaceColors;
+use crate::polygon::face::{FaceColors, FaceOpacities};
 use crate::polygon::texture::{Laid, OwnTextures, TexturedBy};
 use crate::scene::{Kept, Loads, Scene, Source, load, load_keeping};
 use crate::view::picture::Picture;
@@ -14,7 +14,7 @@ use crate::view::picture::Picture;
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-    write("a.mtl", "newmtl bark\nKd 0.5 0.5 0.5\nmap_Kd -clamp on bark.png\n");
+    write("a.mtl", "newmtl bark\nKd 0.5 0.5 0.5\nd 0.25\nmap_Kd -clamp on bark.png\n");
     write(
         "a.obj",
         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nf 1 2 4\nusemtl bark\nf 1/1 2/2 3/3\n",
@@ -36,6 +36,8 @@ fn a_mesh_is_textured_by_its_file_and_the_picture_is_among_the_files() {
     let Scene { world, warnings, files, .. } = scene(folder.path(), "").unwrap();
     let TexturedBy { laid, .. } = only(&world);
     assert!(laid.on(0).is_none(), "a triangle without a picture shows none");
+    let opacities: FaceOpacities = only(&world);
+    assert_eq!([0, 1, 2].map(|at| FaceOpacities::of(Some(&opacities), at)), [1.0, 0.25, 1.0]);
     assert_eq!(laid.on(1).unwrap().size(), [2, 1]);
     assert_eq!(files, ["a.obj", "a.mtl", "bark.png"].map(|name| folder.path().join(name)));
     assert!(!warnings.iter().any(|warning| warning.contains("tree")), "{warnings:?}");
@@ -50,6 +52,7 @@ fn a_texture_that_the_scene_states_takes_the_place_of_the_file_s() {
         scene(folder.path(), "textured = { texture = \"checker\" }").unwrap();
     assert!(matches!(only::<TexturedBy>(&world).laid, Laid::One(_)));
     assert!(world.query::<&FaceColors>().iter().next().is_none(), "and it is not tinted");
+    assert!(world.query::<&FaceOpacities>().iter().next().is_none(), "and all of it is there");
     assert!(only::<OwnTextures>(&world).all().is_empty() && files.len() == 2, "it is not read");
     assert!(!warnings.iter().any(|warning| warning.contains("bark")), "{warnings:?}");
 }

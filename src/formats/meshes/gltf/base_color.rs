@@ -11,8 +11,8 @@ use super::looks::{SampledImage, SurfaceLooks};
 use crate::components::Wrap;
 use crate::formats::base64::all_decoded;
 
-/// What tells pictures apart: the image, what its alpha does, and whether it goes on outside itself.
-type Look = (usize, [u32; 3], bool);
+/// What tells pictures apart: the image, what its alpha does, and how it goes on outside itself.
+type Look = (usize, [u32; 3], Wrap);
 
 /// The pictures of a file that primitives use, each once.
 pub(super) struct BaseColors<'a> {
@@ -37,20 +37,19 @@ impl<'a> BaseColors<'a> {
         Self { document, buffers, path, left: held, pictures, warnings, known }
     }
 
-    /// The number of the picture that is on a primitive; what cannot be had of it is said once.
-    pub fn of(&mut self, primitive: &Primitive) -> Option<u32> {
-        let document = self.document;
-        let looks = document.looks(primitive)?;
+    /// The number of the picture that is on a primitive, and how opaque it is beside, 0..=1; what cannot be had of a picture is
+    /// said once.
+    pub fn of(&mut self, primitive: &Primitive) -> (Option<u32>, f32) {
+        let Some(looks) = self.document.looks(primitive) else { return (None, 1.0) };
         let alpha = alpha(looks);
-        let Some(used) = looks.pbr.as_ref().and_then(|pbr| pbr.picture.as_ref()) else {
-            if alpha != PictureAlpha::Ignored && alpha.factor() < 1.0 {
-                say_once(
-                    &mut self.warnings,
-                    "some of its materials are seen through, which is read of pictures alone; state `opacity` of its `surface`",
-                );
-            }
-            return None;
-        };
+        let number = self.picture(looks, alpha);
+        // The alpha of a picture has the factor in it.
+        (number, if number.is_some() { 1.0 } else { alpha.alone() })
+    }
+
+    fn picture(&mut self, looks: &SurfaceLooks, alpha: PictureAlpha) -> Option<u32> {
+        let document = self.document;
+        let used = looks.pbr.as_ref()?.picture.as_ref()?;
         let texture = document.textures.get(used.index);
         let Some(image) = texture.and_then(SampledImage::image) else {
             let sentence = "some of its pictures are in no file or of no format that is read, and left out; export them as PNG or JPEG";
@@ -58,7 +57,7 @@ impl<'a> BaseColors<'a> {
             return None;
         };
         let wrap = self.wrap(texture.and_then(|texture| texture.sampler));
-        let look = (image, alpha.key(), wrap == Wrap::Clamp);
+        let look = (image, alpha.key(), wrap);
         if let Some(known) = self.known.get(&look) {
             return *known;
         }
@@ -77,10 +76,11 @@ impl<'a> BaseColors<'a> {
         match ways.map(|way| way.unwrap_or(10497)) {
             [33071, 33071] => Wrap::Clamp,
             [10497, 10497] => Wrap::Repeat,
+            [33648, 33648] => Wrap::Mirror,
             _ => {
                 say_once(
                     &mut self.warnings,
-                    "some of its pictures are mirrored outside themselves, or repeat one way alone, which is not read; they repeat",
+                    "some of its pictures go on otherwise to their sides than above and below, which is not read; they repeat",
                 );
                 Wrap::Repeat
             }

@@ -51,8 +51,10 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
             match primitive.mode {
                 4..=6 => {
                     colored |= add(&mut triangles, &document, &buffers, (primitive, matrix))?;
-                    let number = base_colors.of(primitive).unwrap_or(u32::MAX);
-                    triangles.pictured.resize(triangles.faces.len(), number);
+                    let (number, opacity) = base_colors.of(primitive);
+                    let count = triangles.faces.len();
+                    triangles.pictured.resize(count, number.unwrap_or(u32::MAX));
+                    triangles.opacities.resize(count, opacity);
                 }
                 _ => left_out += 1,
             }
@@ -74,6 +76,9 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     triangles.warnings.extend(base_colors.warnings);
     if triangles.pictures.is_empty() {
         triangles.pictured = Vec::new();
+    }
+    if triangles.opacities.iter().all(|&opacity| opacity >= 1.0) {
+        triangles.opacities = Vec::new();
     }
     Ok(triangles)
 }

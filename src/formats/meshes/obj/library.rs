@@ -21,23 +21,40 @@ pub(super) struct ObjMaterial {
 }
 
 /// A picture that a material names.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct PictureLine {
     /// Its path as written, with `/`.
     pub name: String,
     /// Whether its outermost texels go on outside it.
     pub is_clamped: bool,
-    /// Whether it is moved, scaled or made rough, which is not read.
-    pub is_moved: bool,
+    /// What `u` and `v` are multiplied by and what is added then, `v` running up.
+    pub moved: [[f64; 2]; 2],
+    /// Whether it is made rough by turbulence, which is not read.
+    pub is_rough: bool,
+}
+
+impl Default for PictureLine {
+    fn default() -> Self {
+        let (name, [is_clamped, is_rough]) = (String::new(), [false; 2]);
+        Self { name, is_clamped, moved: AS_IT_IS, is_rough }
+    }
+}
+
+/// Neither scaled nor shifted.
+const AS_IT_IS: [[f64; 2]; 2] = [[1.0; 2], [0.0; 2]];
+
+impl PictureLine {
+    /// How it is scaled and shifted, if it is.
+    pub fn moves(&self) -> Option<[[f64; 2]; 2]> {
+        Some(self.moved).filter(|moved| *moved != AS_IT_IS)
+    }
 }
 
 impl ObjMaterial {
-    /// Whether something is seen through all of it.
-    pub fn is_clear(&self) -> bool {
-        match (self.opacity, self.transparency) {
-            (Some(opacity), _) => opacity < 1.0,
-            (None, transparency) => transparency.is_some_and(|clear| clear > 0.0),
-        }
+    /// How opaque all of it is, 0..=1: `d`, else 1 − `Tr`, else 1.
+    pub fn opacity(&self) -> f32 {
+        let opacity = self.opacity.or(self.transparency.map(|clear| 1.0 - clear));
+        opacity.filter(|opacity| opacity.is_finite()).unwrap_or(1.0).clamp(0.0, 1.0) as f32
     }
 
     /// The color that its picture is multiplied by: programs that write black beside a picture mean the picture.
@@ -99,7 +116,6 @@ fn picture(rest: &str) -> Option<PictureLine> {
             "-mm" => 2,
             _ => 1,
         };
-        found.is_moved |= ["-s", "-o", "-t"].contains(&option);
         rest = after.trim_start();
         for at in 0..numbers {
             let (word, after) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
@@ -108,6 +124,13 @@ fn picture(rest: &str) -> Option<PictureLine> {
                 break;
             }
             found.is_clamped |= option == "-clamp" && word == "on";
+            let number = word.parse::<f64>().unwrap_or(0.0);
+            match option {
+                "-s" if at < 2 => found.moved[0][at] = number,
+                "-o" if at < 2 => found.moved[1][at] = number,
+                "-t" => found.is_rough |= number != 0.0,
+                _ => {}
+            }
             rest = after.trim_start();
         }
     }
@@ -129,15 +152,17 @@ mod tests {
 
     #[test]
     fn options_stand_before_a_name_that_may_have_blanks() {
-        for (line, name, is_clamped, is_moved) in [
-            ("map_Kd a b.png", "a b.png", false, false),
-            ("\tmap_Kd -clamp on a.png", "a.png", true, false),
-            ("map_Kd -s 1 2 3 -o 1 my 2.png", "my 2.png", false, true),
-            ("map_Kd -s 2 2 a.png", "a.png", false, true),
-            ("map_Kd -bm 0.5 -mm 0 1 c:\\x\\a.png", "c:/x/a.png", false, false),
+        for (line, name, [is_clamped, is_rough], moved) in [
+            ("map_Kd a b.png", "a b.png", [false; 2], AS_IT_IS),
+            ("\tmap_Kd -clamp on a.png", "a.png", [true, false], AS_IT_IS),
+            ("map_Kd -s 1 2 3 -o 1 my 2.png", "my 2.png", [false; 2], [[1.0, 2.0], [1.0, 0.0]]),
+            ("map_Kd -s 2 2 a.png", "a.png", [false; 2], [[2.0; 2], [0.0; 2]]),
+            ("map_Kd -t 0 0 0 -o 0 .5 a.png", "a.png", [false; 2], [[1.0; 2], [0.0, 0.5]]),
+            ("map_Kd -t 0 0.1 a.png", "a.png", [false, true], AS_IT_IS),
+            ("map_Kd -bm 0.5 -mm 0 1 c:\\x\\a.png", "c:/x/a.png", [false; 2], AS_IT_IS),
         ] {
             let name = name.to_owned();
-            let expected = Some(PictureLine { name, is_clamped, is_moved });
+            let expected = Some(PictureLine { name, is_clamped, moved, is_rough });
             assert_eq!(material(line).picture, expected, "{line}");
         }
         for line in ["map_Kd", "map_Kd -s", "map_Kd -s 1", "map_Kd -clamp on"] {
@@ -146,11 +171,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_seen_through_is_told_by_d_and_else_by_tr() {
-        let clear = ["d 0.5", "d -halo 0.5", "Tr 0.5", "Tr 0\nd 0.9"];
-        assert!(clear.iter().all(|line| material(line).is_clear()));
-        let opaque = ["d 1", "Tr 0", "Tr 1\nd 1", "Kd 1 1 1"];
-        assert!(opaque.iter().all(|line| !material(line).is_clear()));
+    fn how_opaque_a_material_is_is_told_by_d_and_else_by_tr() {
+        let opacities = |lines: &[&str]| -> Vec<f32> {
+            lines.iter().map(|line| material(line).opacity()).collect()
+        };
+        let clear = ["d 0.5", "d -halo 0.5", "Tr 0.75", "Tr 0\nd 0.9", "d -3", "Tr 1"];
+        assert_eq!(opacities(&clear), [0.5, 0.5, 0.25, 0.9, 0.0, 0.0]);
+        let opaque = ["d 1", "d 7", "Tr 0", "Tr 1\nd 1", "Kd 1 1 1", "d nan", "Tr inf"];
+        assert_eq!(opacities(&opaque), [1.0; 7]);
     }
 
     #[test]
@@ -169,7 +197,7 @@ mod tests {
             changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
             length in 0_usize..90,
         ) {
-            let text = "newmtl a\nKd 1 .5 0\nd -halo 1\nTr 0\nmap_Kd -s 1 2 -clamp on a b.png\nmap_d -mm 0 1 c\n";
+            let text = "newmtl a\nKd 1 .5 0\nd -halo 1\nTr 0\nmap_Kd -s 1 2 -t 1 -clamp on a b.png\nmap_d -mm 0 1 c\n";
             let mut bytes = text.as_bytes()[..length.min(text.len())].to_vec();
             for (at, value) in changes.iter().filter(|_| length > 0) {
                 let at = at.index(bytes.len());

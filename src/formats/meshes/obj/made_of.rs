@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
+
 use super::super::pictures::{MeshPicture, PictureAlpha, PicturePlace, add_picture, say_once};
-use super::super::triangles::Triangles;
+use super::super::triangles::{AtCorners, Triangles, place_upward};
 use super::library::{ObjMaterial, add_materials};
 use crate::components::{Color, Wrap};
 use crate::formats::stream::Stream;
@@ -57,13 +59,7 @@ impl MadeOf {
                     add_materials(&bytes, &mut self.materials);
                     self.read.push(file.clone());
                 }
-                Err(_) => say_once(
-                    &mut self.warnings,
-                    format!(
-                        "its materials are not read, for {} is not there; put it beside the mesh",
-                        file.display()
-                    ),
-                ),
+                Err(problem) => say_once(&mut self.warnings, unread(&file, &problem)),
             }
             self.libraries.push(file);
         }
@@ -106,16 +102,63 @@ impl MadeOf {
             triangles.pictured = self.of.iter().map(number).collect();
         }
         triangles.pictures = pictures.all;
-        let clear = known().filter(|material| material.is_clear() || veil_apart(material)).count();
+        if known().any(|material| material.opacity() < 1.0) {
+            let opacity = |number: &u32| Some(used.get(*number as usize)?.as_ref()?.opacity());
+            let opacities = self.of.iter().map(|number| opacity(number).unwrap_or(1.0));
+            triangles.opacities = opacities.collect();
+        }
+        let moves: Vec<_> =
+            used.iter().map(|material| material.as_ref()?.picture.as_ref()?.moves()).collect();
+        move_places(triangles, |at| moves.get(self.of[at] as usize).copied().flatten());
+        let unseen = known().filter(|material| material.opacity() <= 0.0).count();
+        let veiled = known().filter(|material| veil_apart(material)).count();
         let missing = used.len() - known().count();
-        if clear > 0 {
-            self.warnings.push(format!("{clear} of its materials are seen through (`d`, `Tr`, `map_d`), which is not read; state `opacity` of its `surface`"));
+        if unseen > 0 {
+            self.warnings.push(format!("{unseen} of its materials are wholly clear (`d` is 0 or `Tr` 1), and what is made of them is not seen; write `d 1` where they are meant to be opaque"));
+        }
+        if veiled > 0 {
+            self.warnings.push(format!("{veiled} of its materials are seen through by a picture of their own (`map_d`), which is not read; put it into the alpha of that of `map_Kd`"));
         }
         if missing > 0 && !self.read.is_empty() {
             self.warnings.push(format!("{missing} of its materials are in no file that it names, and what is made of them is plain; export it again"));
         }
         triangles.beside.extend(self.read);
         triangles.warnings.extend(self.warnings);
+    }
+}
+
+/// The sentence about a file of materials that is not read, for that problem.
+fn unread(file: &Path, problem: &str) -> String {
+    let name = file.display();
+    match file.try_exists() {
+        Ok(false) => {
+            format!("its materials are not read, for {name} is not there; put it beside the mesh")
+        }
+        Ok(true) if file.is_dir() => {
+            format!("its materials are not read, for {name} is a folder; put a file there")
+        }
+        _ => format!("its materials are not read, for {name} {problem}"),
+    }
+}
+
+/// Scales and shifts where triangles lie in their pictures, `v` running up, as `of` says of each by its number.
+///
+/// Triangles of several materials may share places, so that one that is moved is kept once more for each way.
+fn move_places(triangles: &mut Triangles, of: impl Fn(usize) -> Option<[[f64; 2]; 2]>) {
+    let AtCorners { values, faces } = &mut triangles.places;
+    let mut made = HashMap::new();
+    for (at, face) in faces.iter_mut().enumerate() {
+        let Some(moved) = of(at) else { continue };
+        for corner in face.iter_mut() {
+            let Some(&place) = values.get(*corner as usize) else { continue };
+            let key = (*corner, moved.map(|numbers| numbers.map(f64::to_bits)));
+            *corner = *made.entry(key).or_insert_with(|| {
+                let [scale, shift] = moved.map(DVec2::from);
+                let up = DVec2::new(place.x, 1.0 - place.y) * scale + shift;
+                values.push(place_upward(up.x, up.y));
+                values.len() as u32 - 1
+            });
+        }
     }
 }
 
@@ -136,10 +179,10 @@ impl Pictures<'_> {
     /// The number of a material's picture, if it names one.
     fn number(&mut self, material: &ObjMaterial, warnings: &mut Vec<String>) -> Option<u32> {
         let picture = material.picture.as_ref()?;
-        if picture.is_moved {
+        if picture.is_rough {
             say_once(
                 warnings,
-                "it moves or scales pictures (`-o`, `-s`, `-t` of `map_Kd`), which is not read; they lie where its `vt` alone say",
+                "it makes pictures rough by turbulence (`-t` of `map_Kd`), which is not read; they lie where its `vt`, `-s` and `-o` say",
             );
         }
         let is_veil = material.veil.as_ref() == Some(&picture.name);

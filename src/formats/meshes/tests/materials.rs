@@ -18,7 +18,7 @@ fn pixel(red: f32) -> Vec<u8> {
 }
 
 /// A `.glb` of two primitives of the same triangle; the buffer's view 1 is a picture.
-fn glb(looks: &str) -> Vec<u8> {
+pub(super) fn glb(looks: &str) -> Vec<u8> {
     let numbers =
         [0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0.25, 9., 9., 9., 9., 9., 9_f32];
     let mut buffer: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
@@ -53,14 +53,14 @@ fn glb(looks: &str) -> Vec<u8> {
 }
 
 /// Looks of a first material that uses texture 0 with more said, and a second.
-fn looks(more: &str, second: &str) -> String {
+pub(super) fn looks(more: &str, second: &str) -> String {
     format!(
         r#""materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0{more}}}}}}},{second}],"textures":[{{"source":0}},{{"source":1,"sampler":0}}],"samplers":[{{"wrapS":33071,"wrapT":33071}}],"images":[{{"bufferView":1,"mimeType":"image/png"}},{{"uri":"data:image/png;base64,{}"}}]"#,
         base64(&pixel(0.25))
     )
 }
 
-const USES_IT_TOO: &str = r#"{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}"#;
+pub(super) const USES_IT_TOO: &str = r#"{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}"#;
 
 fn red(mesh: &Triangles, at: usize) -> f32 {
     mesh.pictures[at].decoded().unwrap().pixels[0][0]
@@ -73,6 +73,8 @@ fn each_primitive_has_the_picture_of_its_material() {
     assert_eq!([mesh.picture(0), mesh.picture(1), mesh.picture(2)], [Some(0), Some(1), None]);
     assert!((red(&mesh, 0) - 1.0).abs() < 1e-6 && (red(&mesh, 1) - 0.25).abs() < 2e-3);
     assert_eq!([mesh.pictures[0].wrap, mesh.pictures[1].wrap], [Wrap::Repeat, Wrap::Clamp]);
+    let mirrored = looks("", USES_IT_TOO).replace("33071", "33648");
+    assert_eq!(read("a.glb", &glb(&mirrored)).unwrap().pictures[1].wrap, Wrap::Mirror);
     assert_eq!(mesh.pictures[0].weighed().unwrap().0, [1, 1]);
     assert!(mesh.colors.is_empty(), "no factor is stated");
 }
@@ -129,14 +131,7 @@ fn what_cannot_be_had_of_a_picture_is_a_sentence_and_leaves_the_triangles() {
         (other(images, r#""name":"bark""#), "picture bark is nowhere"),
         (other(r#""source":0"#, r#""source":5"#), "names picture 5"),
         (other(r#"{"source":0}"#, "{}"), "no format that is read"),
-        (other("33071,", "33648,"), "mirrored"),
-        (
-            looks(
-                "",
-                r#"{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}}"#,
-            ),
-            "seen through",
-        ),
+        (other("33071,", "33648,"), "otherwise to their sides"),
     ] {
         let mesh = read("a.glb", &glb(&looks)).unwrap();
         assert_eq!(mesh.faces.len(), 2);
@@ -171,7 +166,7 @@ fn pictures_that_share_their_bytes_do_not_outgrow_the_file() {
 }
 
 /// A folder of an OBJ and its materials.
-fn folder(obj: &str, mtl: Option<&str>) -> tempfile::TempDir {
+pub(super) fn folder(obj: &str, mtl: Option<&str>) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.obj"), obj).unwrap();
     if let Some(mtl) = mtl {
@@ -180,7 +175,7 @@ fn folder(obj: &str, mtl: Option<&str>) -> tempfile::TempDir {
     folder
 }
 
-const OBJ: &str = "mtllib two words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nusemtl dark red\nf 1/1 2/2 3/3\nusemtl bark\nf 1/1 2/2 3/3\n";
+pub(super) const OBJ: &str = "mtllib two words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nusemtl dark red\nf 1/1 2/2 3/3\nusemtl bark\nf 1/1 2/2 3/3\n";
 
 #[test]
 fn triangles_of_an_obj_have_the_colors_and_pictures_of_their_materials() {
@@ -208,10 +203,11 @@ fn what_an_obj_names_and_is_not_there_or_not_read_is_one_sentence_each() {
     assert!(missing.len() == 1 && missing[0].contains("no.mtl is not there"), "{missing:?}");
     let unknown = said(OBJ, Some("newmtl bark\nKd 1 1 1\n"));
     assert!(unknown.len() == 1 && unknown[0].contains("1 of its materials are in no file"));
-    let clear = "newmtl bark\nd 0.5\nnewmtl dark red\nmap_d a.png\nmap_Kd -s 2 2 b.png\n";
+    let clear = "newmtl bark\nd 0\nnewmtl dark red\nmap_d a.png\nmap_Kd -t 2 2 b.png\n";
     let clear = said(OBJ, Some(clear));
-    assert!(clear.len() == 2, "{clear:?}");
-    assert!(clear[0].contains("moves or scales") && clear[1].contains("2 of its materials"));
+    assert!(clear.len() == 3, "{clear:?}");
+    assert!(clear[0].contains("turbulence") && clear[1].contains("1 of its materials are wholly"));
+    assert!(clear[2].contains("1 of its materials are seen through by a picture"));
     let many: Vec<_> = (0..70).map(|at| format!("mtllib {at}.mtl\n")).collect();
     let many = said(&(many.concat() + OBJ), Some(""));
     assert!(many.iter().any(|warning| warning.contains("more than 64")), "{many:?}");

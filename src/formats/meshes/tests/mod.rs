@@ -1,7 +1,9 @@
 //! Facts about meshes: the same tetrahedron in every format, and files that are not what they say.
 
+mod clear;
 mod corners;
 mod materials;
+mod moved;
 mod sound;
 
 use glam::DVec3;
