@@ -141,7 +141,10 @@ fn neither_threads_nor_leaps_change_a_bit_and_all_is_finite_and_in_range() {
 #[test]
 fn an_infinite_value_is_the_greatest_and_what_lies_behind_it_counts() {
     let mut values = vec![0.5; 17 * 40 * 17];
-    values[(8 * 40 + 4) * 17 + 8] = f32::INFINITY;
+    // Between a finite value and an infinite one is either: the rays go through the middle of a block.
+    for [z, y, x] in (0..32).map(|n| [7 + n / 8, 4 + n / 4 % 2, 7 + n % 4]) {
+        values[(z * 40 + y) * 17 + x] = f32::INFINITY;
+    }
     values[(8 * 40 + 9) * 17 + 8] = f32::NAN;
     let picture = |skip| {
         let sampling = Sampling { skip, ..every_pixel() };
