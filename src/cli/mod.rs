@@ -48,6 +48,7 @@ mod raw_header;
 mod render;
 mod report;
 mod report_figures;
+mod report_growth;
 mod report_page;
 mod report_parts;
 mod results;

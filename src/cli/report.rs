@@ -1,4 +1,6 @@
-//! `gelray report`: the figures of the paper, its tables and the trade on one page that needs no network.
+//! `gelray report`: the figures of the paper, its tables, the trade and growth on one page that needs no network.
+
+use std::path::PathBuf;
 
 use clap::Args;
 use gelray::scene::{EMBEDDED, Source};
@@ -11,8 +13,9 @@ use super::report_page::{self, Report};
 use super::report_parts::{Figure, Parts};
 use super::scenes::summary;
 use super::steps::Steps;
+use super::trade_others::Other;
 use super::trade_run::{How, folder, traded};
-use super::{outputs, profile_numbers, trade_page};
+use super::{outputs, profile_numbers, report_growth, trade_others, trade_page};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -32,6 +35,9 @@ pub struct Reporting {
     /// Sweeps fewer settings, and measures each less often
     #[arg(long)]
     quick: bool,
+    /// What other programs reach of the first scene, to be drawn beside: lines of name, milliseconds, decibels
+    #[arg(long, value_name = "FILE.csv")]
+    points: Option<PathBuf>,
     /// Leaves what is measured already as it is
     #[arg(long)]
     resume: bool,
@@ -41,6 +47,7 @@ pub struct Reporting {
 pub fn run(reporting: &Reporting, flags: &Flags) -> Result<(), Failure> {
     flags.refuse_others("report", TAKES)?;
     let to = folder("report", flags)?;
+    let others = reporting.points.as_deref().map_or(Ok(Vec::new()), trade_others::read)?;
     let names: Vec<String> = if reporting.figures.is_empty() {
         CLAIMS.iter().map(|claim| claim.scene.to_owned()).collect()
     } else {
@@ -61,10 +68,11 @@ pub fn run(reporting: &Reporting, flags: &Flags) -> Result<(), Failure> {
         steps: &steps,
     };
     let mut report =
-        Report { figures: figures(&parts, &names)?, exact: None, trade: String::new() };
+        Report { figures: figures(&parts, &names)?, exact: None, measured: String::new() };
     if let Some((name, _, first)) = report.figures.first() {
         report.exact = Some(parts.exact(name, &first.profile)?);
-        report.trade = trade(&parts, name, reporting)?;
+        report.measured = trade(&parts, name, (reporting, &others))?;
+        report.measured.push_str(&report_growth::section(&parts)?);
     }
     drop(steps);
     outputs::write_text(&to.join("index.html"), &report_page::words(&report))?;
@@ -89,7 +97,11 @@ fn figures(parts: &Parts, names: &[String]) -> Result<Vec<(String, String, Figur
 }
 
 /// The trade of a scene, as part of the page.
-fn trade(parts: &Parts, name: &str, reporting: &Reporting) -> Result<String, Failure> {
+fn trade(
+    parts: &Parts,
+    name: &str,
+    (reporting, others): (&Reporting, &[Other]),
+) -> Result<String, Failure> {
     let to = parts.folder.join("trade");
     let how = if reporting.quick {
         How { repeat: 1, combinations: 4, step: 3, resume: parts.resume }
@@ -99,7 +111,7 @@ fn trade(parts: &Parts, name: &str, reporting: &Reporting) -> Result<String, Fai
     let source = Source::embedded(name)?;
     let (trade, pictures) =
         traded((&source, 1), &to, &how, (parts.flags, parts.interrupt, parts.steps))?;
-    Ok(format!("<h2>Speed against accuracy</h2>\n{}", trade_page::body(&trade, &pictures, &[])))
+    Ok(format!("<h2>Speed against accuracy</h2>\n{}", trade_page::body(&trade, &pictures, others)))
 }
 
 fn embedded(name: &str) -> Result<String, String> {

@@ -15,8 +15,8 @@ pub struct Report {
     pub figures: Vec<(String, String, Figure)>,
     /// The first figure's scene with every ray cast.
     pub exact: Option<(Exact, Vec<u8>)>,
-    /// What was found of the trade of the first figure's scene: the part of a page.
-    pub trade: String,
+    /// What was found of the trade of the first figure's scene, and of how cost grows: the last part of the page.
+    pub measured: String,
 }
 
 /// The page.
@@ -35,7 +35,7 @@ pub fn words(report: &Report) -> String {
         body.push_str(&stages(&first.profile));
         body.push_str(&numbers(report));
     }
-    body.push_str(&report.trade);
+    body.push_str(&report.measured);
     page("Volumes and polygons, after Levoy 1988", &body)
 }
 
