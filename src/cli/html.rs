@@ -12,7 +12,7 @@ h1 { font-size: 1.6rem; line-height: 1.2 } h2 { font-size: 1.25rem; margin-top: 
 .wide { overflow-x: auto } .wide svg { display: block; width: 100%; min-width: 36rem; height: auto }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums }
 td, th { padding: .2rem .7rem .2rem 0; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line) }
-td.text, th.text { text-align: left } td:not(:first-child).text { white-space: normal; min-width: 9rem } th { color: var(--quiet); font-weight: 500 } tr.front { font-weight: 600 }
+td.text, th.text { text-align: left } td.text { white-space: normal; min-width: 9rem } th { color: var(--quiet); font-weight: 500 } tr.front { font-weight: 600 }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 19rem), 1fr)); gap: 1.5rem }
 figure { margin: 0 } figure img { display: block; width: 100%; height: auto; background: #000; border-radius: 4px }
 figure.rays img { filter: brightness(6) }
