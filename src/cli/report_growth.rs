@@ -155,7 +155,7 @@ fn measured(parts: &Parts) -> Result<Kept, Failure> {
 
 /// A size: the median of some runs, each made anew.
 fn timed(row: &Row, n: u32, parts: &Parts) -> Result<Measured, Failure> {
-    let source = Source::inline("growth", &(row.scene)(n));
+    let source = Source::inline("growth", (row.scene)(n));
     let Scene { mut world, .. } = load(&source, &[], &[], false)?;
     for view in world.query_mut::<&mut View>() {
         view.size = [(row.side)(n); 2];
@@ -222,7 +222,7 @@ mod tests {
     fn every_row_is_a_scene_at_every_size() {
         for row in &ROWS {
             for &n in row.sizes {
-                let source = Source::inline("growth", &(row.scene)(n));
+                let source = Source::inline("growth", (row.scene)(n));
                 let loaded = load(&source, &[], &[], false);
                 assert!(loaded.is_ok(), "{}, {n}: {:?}", row.what, loaded.err());
             }
