@@ -70,7 +70,7 @@ fn main() {
     );
     for (what, scene, distance) in SCENES {
         let (file, source) = source(scene);
-        let (chosen, work_chosen, settings) = target(&file, &format!("psnr={GOAL}"));
+        let (chosen, work_chosen, settings) = target(&file, &[&format!("psnr={GOAL}")]);
         let mut setting = opened(&source);
         setting.sample(|s| {
             *s = Sampling { distance_mm: Some(distance / 4.0), ..s.exact() };
@@ -101,9 +101,9 @@ fn times() {
         let (file, source) = source(scene);
         let mut setting = opened(&source);
         let start = setting.world.query::<&View>().iter().next().map_or(0.0, |view| view.azimuth);
-        let slowest = |times: &[f64]| times.iter().copied().fold(0.0, f64::max);
-        let asked = 0.7 * slowest(&turn(&mut setting, start));
-        let (_, _, settings) = target(&file, &format!("ms={asked} --views {VIEWS}"));
+        let asked = 0.7 * turn(&mut setting, start).into_iter().fold(0.0, f64::max);
+        let goal = [&format!("ms={asked}"), "--views", &VIEWS.to_string()];
+        let (_, _, settings) = target(&file, &goal);
         let stated: toml::Table =
             settings.parse().expect("the settings are told as a scene states them");
         let sampling: Sampling =
@@ -143,14 +143,14 @@ fn source(scene: &str) -> (String, Source) {
 }
 
 /// The picture that the program makes, what it took, and the line of settings.
-fn target(scene: &str, goal: &str) -> (Picture, f64, String) {
+fn target(scene: &str, goal: &[&str]) -> (Picture, f64, String) {
     let [picture, stats] = ["npy", "json"].map(|end| {
         std::env::temp_dir().join(format!("gelray-target-{}.{end}", std::process::id()))
     });
     let size = format!("{SIZE}x{SIZE}");
     let ran = Command::new(env!("CARGO_BIN_EXE_gelray"))
-        .args(["render", scene, "--size", &size])
-        .args(["--target".to_owned()].into_iter().chain(goal.split(' ').map(str::to_owned)))
+        .args(["render", scene, "--size", &size, "--target"])
+        .args(goal)
         .arg("-o")
         .arg(&picture)
         .arg("--stats")

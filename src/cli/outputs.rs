@@ -5,6 +5,7 @@ use std::path::Path;
 use gelray::Error;
 use gelray::formats::pictures::{PICTURE_FORMATS, check_output, format_of};
 use gelray::formats::whole::{check_writable, write_whole};
+use serde::Serialize;
 
 use super::failure::{Failure, print};
 use super::flags::Flags;
@@ -86,6 +87,14 @@ pub fn make_folder(folder: &Path) -> Result<(), Error> {
 /// A file of text, whole or not at all.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Error> {
     write_whole(path, |out| Ok(out.write_all(text.as_bytes())?))
+}
+
+/// A file of JSON, whole or not at all.
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| {
+        Failure::Said(format!("{} cannot be written ({error})", path.display()))
+    })?;
+    Ok(write_text(path, &(text + "\n"))?)
 }
 
 /// The extensions of the pictures that are written, for sentences.

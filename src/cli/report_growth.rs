@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::failure::Failure;
 use super::html::table;
 use super::noted::VERSION;
-use super::outputs::write_text;
+use super::outputs::write_json;
 use super::report_parts::Parts;
 
 /// What varies, what the paper says of it, and how it is measured.
@@ -121,9 +121,7 @@ struct Kept {
 
 /// The section of the page, measured or as it was kept.
 pub fn section(parts: &Parts) -> Result<String, Failure> {
-    let path = parts.folder.join("growth.json");
-    let known = std::fs::read_to_string(&path).ok().filter(|_| parts.resume);
-    let known = known.and_then(|text| serde_json::from_str::<Kept>(&text).ok()).filter(|kept| {
+    let known = parts.kept("growth").filter(|kept: &Kept| {
         kept.version == VERSION
             && kept.threads == rayon::current_num_threads()
             && kept.repeat == parts.repeat
@@ -133,9 +131,7 @@ pub fn section(parts: &Parts) -> Result<String, Failure> {
         return Ok(words(&kept.rows));
     }
     let kept = measured(parts)?;
-    let text = serde_json::to_string_pretty(&kept)
-        .map_err(|error| Failure::Said(format!("growth.json cannot be written ({error})")))?;
-    write_text(&path, &(text + "\n"))?;
+    write_json(&parts.folder.join("growth.json"), &kept)?;
     Ok(words(&kept.rows))
 }
 

@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::flags::Flags;
 use super::interrupt::Interrupt;
 use super::noted::VERSION;
-use super::outputs::write_text;
+use super::outputs::write_json;
 use super::profile_numbers::add_numbers;
 use super::profile_run::{Subject, profile};
 use super::profile_saved::Profile;
@@ -121,12 +121,14 @@ impl Parts<'_> {
 
     /// A part that was kept, if it is to be used and is whole.
     fn read<P: for<'de> Deserialize<'de>>(&self, name: &str) -> Option<(P, Vec<u8>)> {
-        let path = |end: &str| self.folder.join(format!("{name}.{end}"));
-        if !self.resume {
-            return None;
-        }
-        let text = std::fs::read_to_string(path("json")).ok()?;
-        Some((serde_json::from_str(&text).ok()?, std::fs::read(path("png")).ok()?))
+        Some((self.kept(name)?, std::fs::read(self.folder.join(format!("{name}.png"))).ok()?))
+    }
+
+    /// What was kept of a part beside pictures, if it is to be used and is whole.
+    pub fn kept<P: for<'de> Deserialize<'de>>(&self, name: &str) -> Option<P> {
+        let path = self.folder.join(format!("{name}.json"));
+        let text = std::fs::read_to_string(path).ok().filter(|_| self.resume)?;
+        serde_json::from_str(&text).ok()
     }
 
     /// Keeps a picture, or where its rays were cast, and then what was measured of it; the PNG.
@@ -139,9 +141,7 @@ impl Parts<'_> {
         } else {
             write_picture(&png, &made.picture, &[])?;
         }
-        let text = serde_json::to_string_pretty(part)
-            .map_err(|error| Failure::Said(format!("{name}.json cannot be written ({error})")))?;
-        write_text(&path("json"), &(text + "\n"))?;
+        write_json(&path("json"), part)?;
         std::fs::read(&png).map_err(|error| {
             let problem = format!(
                 "cannot be read again ({error}); leave the folder alone until the report is written"

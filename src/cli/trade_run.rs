@@ -130,9 +130,7 @@ fn all(
             }
             None => traded.measure(choice, repeat)?,
         });
-        let text = serde_json::to_string_pretty(&trade)
-            .map_err(|error| Failure::Said(format!("trade.json cannot be written ({error})")))?;
-        write_text(folder, "trade.json", &(text + "\n"))?;
+        outputs::write_json(&folder.join("trade.json"), trade)?;
         steps.done();
     }
     Ok(())

@@ -68,6 +68,37 @@ pub enum Wrap {
     Vanish,
 }
 
+impl Wrap {
+    /// After how many widths of the texture all is as before; `None` where nothing comes again.
+    pub(crate) fn period(self) -> Option<f64> {
+        match self {
+            Self::Repeat => Some(1.0),
+            Self::Mirror => Some(2.0),
+            Self::Clamp | Self::Vanish => None,
+        }
+    }
+
+    /// Where an index of the endless plane lies among `count` texels; `None` where nothing lies.
+    #[inline]
+    pub(crate) fn texel(self, index: i64, count: usize) -> Option<usize> {
+        if let Ok(inside) = usize::try_from(index)
+            && inside < count
+        {
+            return Some(inside);
+        }
+        let count = count as i64;
+        match self {
+            Self::Repeat => Some(index.rem_euclid(count) as usize),
+            Self::Mirror => {
+                let index = index.rem_euclid(2 * count);
+                Some(index.min(2 * count - 1 - index) as usize)
+            }
+            Self::Clamp => Some(index.clamp(0, count - 1) as usize),
+            Self::Vanish => None,
+        }
+    }
+}
+
 /// How a footprint is averaged over a texture, from the reference to the cheapest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -106,4 +137,18 @@ pub struct Projects {
 
 fn once() -> [f64; 2] {
     [1.0, 1.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_index_outside_repeats_is_mirrored_clamps_or_vanishes() {
+        let at = |wrap: Wrap| [-4, -1, 0, 2, 3, 7].map(|i| wrap.texel(i, 3));
+        assert_eq!(at(Wrap::Repeat), [2, 2, 0, 2, 0, 1].map(Some));
+        assert_eq!(at(Wrap::Mirror), [2, 0, 0, 2, 2, 1].map(Some));
+        assert_eq!(at(Wrap::Clamp), [0, 0, 0, 2, 2, 2].map(Some));
+        assert_eq!(at(Wrap::Vanish), [None, None, Some(0), Some(2), None, None]);
+    }
 }

@@ -197,7 +197,7 @@ fn pixel_of(&Drawn { item, weight, within }: &Drawn, size: [usize; 2]) -> ([usiz
     // Blocks at the right and the lower end may have fewer pixels.
     let [across, down] = [0, 1].map(|axis| BLOCK.min(size[axis] - first[axis]));
     let pixels = across * down;
-    let one = ((within * pixels as f64) as usize).min(pixels - 1);
+    let one = (within * pixels as f64) as usize;
     let of_all = (blocks[0] * blocks[1] * pixels) as f64 / (size[0] * size[1]) as f64;
     ([first[0] + one % across, first[1] + one / across], weight * of_all)
 }

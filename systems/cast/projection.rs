@@ -50,7 +50,8 @@ struct Projected<'a> {
     stated: &'a StatedProjection,
     classifier: Classifier,
     walk: Walk,
-    emitters: Emitters,
+    /// How its values emit, where they do.
+    emitters: Option<Emitters>,
     /// Whether bricks are leapt over.
     skips: bool,
 }
@@ -68,7 +69,8 @@ impl<'a> Projections<'a> {
             let classifier = Classifier::new(&stated.classify, &stated.material, 1.0);
             let skips = skips && stated.shows != Projection::Mean;
             let walk = Walk::new(&stated.grid, camera, distance)?;
-            let emitters = Emitters::new(&stated.classify, &stated.grid, camera);
+            let emitters = (stated.shows == Projection::Sabella)
+                .then(|| Emitters::new(&stated.classify, &stated.grid, camera));
             each.extend(walk.map(|walk| Projected { stated, classifier, walk, emitters, skips }));
         }
         Ok(Self { each, camera, distance })
@@ -120,11 +122,8 @@ impl Projected<'_> {
     fn shaded(&self, value: f32, depth: f64, way: f64) -> Shaded {
         let opacity = f64::from(self.classifier.opacity(value, [0.0; 3]));
         let color = self.classifier.color(value, [0.0; 3]).as_dvec3();
-        let color = match self.stated.shows {
-            Projection::Sabella => self.emitters.shown(color, depth, way),
-            _ => color,
-        };
-        let color = color * opacity;
+        let shown = |emitters: &Emitters| emitters.shown(color, depth, way);
+        let color = self.emitters.as_ref().map_or(color, shown) * opacity;
         Shaded { color, opacity, plain_color: DVec3::ZERO, plain_opacity: opacity }
     }
 
@@ -144,20 +143,15 @@ impl Projected<'_> {
         let StatedProjection { shows, grid, scalars, ranges, clip, .. } = self.stated;
         let is_kept = |k: i64| clip.as_ref().is_none_or(|clip| clip.distance(place(k)) >= 0.0);
         let ray = Sought { tile, lane, size: grid.size, first };
+        let emitters = self.emitters.as_ref();
+        let density = |value| emitters.map_or(0.0, |emitters| emitters.density(value));
+        // Whether what is nowhere above that value emits nothing.
+        let is_silent = |high| emitters.is_none_or(|emitters| high <= emitters.empty_to());
         with_scalars!(scalars, values => match shows {
-            Projection::Maximum => ray.best(
+            Projection::Maximum | Projection::Sabella => ray.best(
                 (values, holds, is_kept),
-                (|a, b| a > b, |_| 0.0),
-                |brick| self.skips.then(|| ranges.around(brick).high),
-                counts,
-            ),
-            Projection::Sabella => ray.best(
-                (values, holds, is_kept),
-                (|a, b| a > b, |value| self.emitters.density(value)),
-                |brick| {
-                    let high = ranges.around(brick).high;
-                    (self.skips && high <= self.emitters.empty_to()).then_some(high)
-                },
+                (|a, b| a > b, density),
+                |brick| self.skips.then(|| ranges.around(brick).high).filter(|high| is_silent(*high)),
                 counts,
             ),
             Projection::Minimum => ray.best(

@@ -178,17 +178,12 @@ struct Overlap {
 impl Overlap {
     fn new(low: f64, width: f64, count: usize, wrap: Wrap) -> Self {
         let all = count as f64;
-        match wrap {
-            Wrap::Repeat => Self { low: low.rem_euclid(all), width: width.min(all), count, wrap },
-            Wrap::Mirror => {
-                let both = 2.0 * all;
-                Self { low: low.rem_euclid(both), width: width.min(both), count, wrap }
-            }
-            // Farther out there is nothing new, and differences of large numbers would lose the width.
-            Wrap::Clamp | Wrap::Vanish => {
-                Self { low: low.clamp(-width - 1.0, all + 1.0), width, count, wrap }
-            }
+        if let Some(period) = wrap.period() {
+            let period = period * all;
+            return Self { low: low.rem_euclid(period), width: width.min(period), count, wrap };
         }
+        // Farther out there is nothing new, and differences of large numbers would lose the width.
+        Self { low: low.clamp(-width - 1.0, all + 1.0), width, count, wrap }
     }
 
     /// Texels and shares; the shares sum to 1, or to less where the texture vanishes.
@@ -201,18 +196,14 @@ impl Overlap {
             Wrap::Clamp => (low.floor().clamp(0.0, all - 1.0), high.ceil().clamp(1.0, all)),
             Wrap::Vanish => (low.floor().clamp(0.0, all), high.ceil().clamp(0.0, all)),
         };
-        (first as usize..end as usize).map(move |texel| {
+        (first as usize..end as usize).filter_map(move |texel| {
             let (mut from, mut to) = (texel as f64, texel as f64 + 1.0);
             if wrap == Wrap::Clamp {
                 from = if texel == 0 { f64::NEG_INFINITY } else { from };
                 to = if texel + 1 == count { f64::INFINITY } else { to };
             }
             let share = (high.min(to) - low.max(from)).max(0.0) / width;
-            let texel = match wrap {
-                Wrap::Mirror => (texel % (2 * count)).min(2 * count - 1 - texel % (2 * count)),
-                _ => texel % count,
-            };
-            (texel, share)
+            Some((wrap.texel(texel as i64, count)?, share))
         })
     }
 }

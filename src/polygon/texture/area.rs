@@ -9,7 +9,7 @@ use std::ops::Range;
 use glam::{DMat2, DVec2, DVec4, Vec4};
 
 use super::footprint::{Footprint, MOST_TEXELS, widened};
-use super::mip::{MipLevel, wrapped};
+use super::mip::MipLevel;
 use crate::components::Wrap;
 
 /// The mean over the footprint, at least a texel wide, in the finest level where it covers not too many texels.
@@ -18,8 +18,7 @@ pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Fo
         let sides = footprint.in_texels(level.size);
         let reach = sides.x_axis.abs() + sides.y_axis.abs();
         let met = sides.determinant().abs() + reach.x + reach.y;
-        let is_endless = matches!(wrap, Wrap::Repeat | Wrap::Mirror);
-        met <= MOST_TEXELS || !is_endless && level.texels.len() as f64 <= MOST_TEXELS
+        met <= MOST_TEXELS || wrap.period().is_none() && level.texels.len() as f64 <= MOST_TEXELS
     };
     match levels.iter().find(fits) {
         Some(level) => mean(level, wrap, uv, widened(footprint.in_texels(level.size))),
@@ -34,14 +33,14 @@ fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, sides: DMat2) -> Vec4 {
     let (p, q) = (sides.x_axis / 2.0, sides.y_axis / 2.0);
     let reach = p.abs() + q.abs();
     // Wholly outside, how far outside makes no difference; near the texture the areas keep their digits.
-    let end = if wrap == Wrap::Mirror { 2.0 * size } else { size };
+    let end = size * wrap.period().unwrap_or(1.0);
     let at = (uv * size).clamp(-reach - 1.0, end + reach + 1.0);
     let corners = [at - p - q, at + p - q, at + p + q, at - p + q];
     let rows = Cells::new(at.y - reach.y..at.y + reach.y, level.size[1], wrap);
     let mut sum = DVec4::ZERO;
     for row in rows.numbers.clone() {
         let pieces = Pieces::new(&corners, rows.borders(row));
-        if let (Some(y), Some(span)) = (wrapped(row, level.size[1], wrap), pieces.span()) {
+        if let (Some(y), Some(span)) = (wrap.texel(row, level.size[1]), pieces.span()) {
             let texels = &level.texels[y * level.size[0]..][..level.size[0]];
             sum += pieces.weighed(texels, &Cells::new(span, level.size[0], wrap), wrap);
         }
@@ -163,7 +162,7 @@ impl Pieces {
 
     /// The sum of a row's texels, each times its share.
     fn weighed(&self, texels: &[Vec4], columns: &Cells, wrap: Wrap) -> DVec4 {
-        let texel = |column| wrapped(column, texels.len(), wrap).map(|x| texels[x].as_dvec4());
+        let texel = |column| wrap.texel(column, texels.len()).map(|x| texels[x].as_dvec4());
         let Range { start, end } = columns.numbers;
         let (full, height) = self.between();
         // The outermost columns may be wider than a texel; those between, from edge to edge, count alike.

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat2, DVec2, DVec3, DVec4, Vec4};
 
 use super::footprint::{Footprint, MOST_TEXELS, widened};
-use super::mip::{MipLevel, wrapped};
+use super::mip::MipLevel;
 use crate::components::Wrap;
 
 /// Variance of a square of side 1 along each axis: that of the pixel carried to the texture, and that of a texel.
@@ -67,7 +67,8 @@ fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, g: Gaussian) -> Vec4 {
     let reach = (CUT * g.variance.z).sqrt();
     let (mut sum, mut total) = (DVec4::ZERO, 0.0);
     for row in (at.y - reach).ceil() as i64..=(at.y + reach).floor() as i64 {
-        let texels = wrapped(row, level.size[1], wrap)
+        let texels = wrap
+            .texel(row, level.size[1])
             .map_or(&[][..], |y| &level.texels[y * level.size[0]..][..level.size[0]]);
         let (row_sum, row_total) = weighed_row(texels, wrap, at.x, row as f64 - at.y, g);
         sum += row_sum;
@@ -91,7 +92,7 @@ fn weighed_row(texels: &[Vec4], wrap: Wrap, middle: f64, y: f64, g: Gaussian) ->
     let (mut sum, mut total) = (DVec4::ZERO, 0.0);
     for column in first..=last {
         if !texels.is_empty()
-            && let Some(x) = wrapped(column, texels.len(), wrap)
+            && let Some(x) = wrap.texel(column, texels.len())
         {
             sum += texels[x].as_dvec4() * weight;
         }

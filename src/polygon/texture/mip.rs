@@ -51,26 +51,8 @@ impl MipLevel {
 
     /// The texel at a column and row of the endless plane; `None` where the texture has vanished.
     pub fn texel(&self, x: i64, y: i64, wrap: Wrap) -> Option<Vec4> {
-        let (x, y) = (wrapped(x, self.size[0], wrap)?, wrapped(y, self.size[1], wrap)?);
+        let (x, y) = (wrap.texel(x, self.size[0])?, wrap.texel(y, self.size[1])?);
         Some(self.texels[y * self.size[0] + x])
-    }
-}
-
-/// Where an index of the endless plane lies among `size` texels.
-pub(super) fn wrapped(index: i64, size: usize, wrap: Wrap) -> Option<usize> {
-    if let Ok(inside) = usize::try_from(index)
-        && inside < size
-    {
-        return Some(inside);
-    }
-    match wrap {
-        Wrap::Repeat => Some(index.rem_euclid(size as i64) as usize),
-        Wrap::Mirror => {
-            let (size, index) = (size as i64, index.rem_euclid(2 * size as i64));
-            Some(index.min(2 * size - 1 - index) as usize)
-        }
-        Wrap::Clamp => Some(index.clamp(0, size as i64 - 1) as usize),
-        Wrap::Vanish => None,
     }
 }
 
@@ -131,14 +113,5 @@ mod tests {
         let levels_of = |size, pixels| levels(&Picture::new(size, pixels).unwrap());
         assert_eq!(levels_of([1, 1], pixels)[0].texels, [Vec4::new(0.0, 0.0, 0.5, 1.0)]);
         assert_eq!(levels_of([0, 5], vec![])[0].texels, [Vec4::ZERO]);
-    }
-
-    #[test]
-    fn an_index_outside_repeats_is_mirrored_clamps_or_vanishes() {
-        let at = |wrap| [-4, -1, 0, 2, 3, 7].map(|i| wrapped(i, 3, wrap));
-        assert_eq!(at(Wrap::Repeat), [2, 2, 0, 2, 0, 1].map(Some));
-        assert_eq!(at(Wrap::Mirror), [2, 0, 0, 2, 2, 1].map(Some));
-        assert_eq!(at(Wrap::Clamp), [0, 0, 0, 2, 2, 2].map(Some));
-        assert_eq!(at(Wrap::Vanish), [None, None, Some(0), Some(2), None, None]);
     }
 }

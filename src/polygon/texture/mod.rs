@@ -101,11 +101,7 @@ impl MappedTexture {
     fn placed(&self, uv: DVec2) -> DVec2 {
         let finite = |x: f64| if x.is_nan() { 0.5 } else { x.clamp(-1e9, 1e9) };
         let uv = DVec2::new(finite(uv.x), finite(uv.y));
-        match self.wrap {
-            Wrap::Repeat => uv - uv.floor(),
-            Wrap::Mirror => uv - 2.0 * (uv / 2.0).floor(),
-            Wrap::Clamp | Wrap::Vanish => uv,
-        }
+        self.wrap.period().map_or(uv, |period| uv - period * (uv / period).floor())
     }
 }
 
