@@ -1,4 +1,4 @@
-//! `gelray report`: the figures of the paper, its tables, the trade and growth on one page that needs no network.
+//! `gelray report`: the figures of the paper, its tables, the trade, growth and extremes on one page that needs no network.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ use super::scenes::summary;
 use super::steps::Steps;
 use super::trade_others::Other;
 use super::trade_run::{How, folder, traded};
-use super::{outputs, profile_numbers, report_growth, trade_others, trade_page};
+use super::{outputs, profile_numbers, report_extremes, report_growth, trade_others, trade_page};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -73,6 +73,7 @@ pub fn run(reporting: &Reporting, flags: &Flags) -> Result<(), Failure> {
         report.exact = Some(parts.exact(name, &first.profile)?);
         report.measured = trade(&parts, name, (reporting, &others))?;
         report.measured.push_str(&report_growth::section(&parts)?);
+        report.measured.push_str(&report_extremes::section(&parts)?);
     }
     drop(steps);
     outputs::write_text(&to.join("index.html"), &report_page::words(&report))?;

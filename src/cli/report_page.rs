@@ -15,7 +15,7 @@ pub struct Report {
     pub figures: Vec<(String, String, Figure)>,
     /// The first figure's scene with every ray cast.
     pub exact: Option<(Exact, Vec<u8>)>,
-    /// What was found of the trade of the first figure's scene, and of how cost grows: the last part of the page.
+    /// What was found of the trade of the first figure's scene, of how cost grows and of extremes: the last part of the page.
     pub measured: String,
 }
 
