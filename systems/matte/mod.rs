@@ -51,16 +51,16 @@ struct Polygon {
     voxelize: Voxelize,
     surface: Surface,
     faces: Faces,
-    /// Whether some of its faces are less opaque than its surface.
-    is_seen_through: bool,
+    /// Parts of its surface's opacity that its faces have, where they are less opaque.
+    opacities: Option<FaceOpacities>,
 }
 
 /// What tells where a polygon is, and how much of a voxel it takes up there.
 struct There {
     /// α_G where it is wholly there and as opaque as its surface: the least over the faces' directions in the grid.
     peak: f32,
-    /// α_G as it would be were all faces as opaque as their surface, where some are not and an operator asks.
-    whole: Option<Bricks<f32>>,
+    /// The same for each voxel, of the faces that are there, where some are less opaque and an operator asks.
+    own: Option<Bricks<[f32; 3]>>,
 }
 
 /// One of the colours that a layer keeps.
@@ -196,7 +196,7 @@ impl Polygon {
             voxelize: voxelize.clone(),
             surface: surface.clone(),
             faces: faces.clone(),
-            is_seen_through: opacities.is_some(),
+            opacities: opacities.cloned(),
         };
         all.into_iter().map(polygon).collect()
     }
@@ -211,11 +211,19 @@ impl Polygon {
         let flats: Vec<Flat> =
             self.faces.0.par_iter().filter_map(|face| Flat::new(face, grid)).collect();
         let ball = Ball::stated(&self.surface, &self.voxelize, unit, grid, &flats);
-        let peak = flats.iter().map(|flat| ball.peak(flat.layer)).fold(1.0, f64::min) as f32;
+        let least = |a: &f64, b: &f64| ball.peak(*a).total_cmp(&ball.peak(*b));
+        let Some(layer) = flats.iter().map(|flat| flat.layer).min_by(least) else {
+            return There { peak: 1.0, own: None };
+        };
+        let peak = |part: f32| ball.opacity(f64::from(part), 0.5, layer).min(1.0) as f32;
         // What is half as opaque is not half there; the other operators do not ask.
-        let asks = self.is_seen_through && matches!(self.voxelize.matte, Matte::In | Matte::Out);
-        let whole = asks.then(|| Covered::new(&self.faces.0, &flats, &ball, grid.size).opacity());
-        There { peak, whole }
+        let asks = matches!(self.voxelize.matte, Matte::In | Matte::Out);
+        let own = self.opacities.as_ref().filter(|_| asks).map(|own| {
+            let of_face = |at| Vec3::splat(peak(FaceOpacities::of(Some(own), at)));
+            let covered = Covered::new(&self.faces.0, &flats, &ball, grid.size);
+            covered.colors(&(0..flats.len()).map(of_face).collect::<Vec<_>>())
+        });
+        There { peak: peak(1.0), own }
     }
 }
 
@@ -278,11 +286,10 @@ impl Inputs {
     ) {
         for (polygon, there) in self.polygons.iter().zip(there) {
             let Some(covered) = polygon.coverage.opacity.brick(place.brick) else { continue };
-            let whole = there.whole.as_ref().and_then(|whole| whole.brick(place.brick));
+            let own = there.own.as_ref().and_then(|own| own.brick(place.brick));
             for (at, &covered) in covered.iter().enumerate().filter(|(_, covered)| **covered > 0.0)
             {
-                let whole = whole.map_or(covered, |whole| whole[at].max(covered));
-                let part = footprint(whole, there.peak);
+                let part = footprint(covered, own.map_or(there.peak, |own| own[at][0]));
                 let parts = weights(polygon.voxelize.matte, covered, alpha[at], part);
                 alpha[at] = (parts[0] + parts[1]).min(1.0);
                 tell(&polygon.coverage.colors, at, parts, parts[0] + parts[1]);
