@@ -144,9 +144,9 @@ mod tests {
             let mut canvas = Canvas::new([160, 40], background);
             let at = [8.0, 6.0];
             if is_label {
-                canvas.label(&line, at, color)
+                canvas.label(&line, at, color);
             } else {
-                canvas.text(&line, at, color)
+                canvas.text(&line, at, color);
             }
             canvas.picture().pixels.to_vec()
         };

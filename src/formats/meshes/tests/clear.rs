@@ -50,7 +50,9 @@ fn triangles_of_an_obj_are_as_opaque_as_their_materials() {
 fn with_alphas(alphas: [f32; 4], looks: &str) -> Triangles {
     let points = [[0.0, 0.0, 0.0_f32], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
     let mut numbers = points.concat();
-    alphas.iter().for_each(|&alpha| numbers.extend([1.0, 0.5, 0.25, alpha]));
+    for alpha in alphas {
+        numbers.extend([1.0, 0.5, 0.25, alpha]);
+    }
     // Vertices before, so that numbers of them are not those within the primitive.
     numbers.extend(points.concat());
     let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
