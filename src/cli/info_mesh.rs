@@ -52,10 +52,12 @@ pub fn words(path: &Path, quiet: bool) -> Result<String, Failure> {
 
 /// What a picture is called and how large it is, or why it cannot be had.
 fn picture(own: &MeshPicture) -> String {
-    match own.weighed() {
+    let words = match own.weighed() {
         Ok(([width, height], _)) => format!("{}, {width} × {height} pixels", own.name),
         Err(problem) => format!("{}, which {problem}", own.name),
-    }
+    };
+    let veil = own.veil.as_ref().map(|veil| format!("; seen through by {}", picture(veil)));
+    words + &veil.unwrap_or_default()
 }
 
 fn closed(enclosed: &Enclosed) -> String {

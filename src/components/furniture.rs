@@ -82,7 +82,8 @@ pub struct LegendEntry {
 
 /// Text beside a place in the world, and a line to that place, which stands in the gel and is hidden by it; the text is not.
 ///
-/// Where the view states a background, letters of all furniture have a rim of its color.
+/// Where the view states a background, letters of all furniture have a rim of its color; those of callouts have one of black or white
+/// where it states none, since they may stand before a volume. The text of a line that begins in the picture lies wholly in it.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Callout {

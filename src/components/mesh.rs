@@ -10,6 +10,11 @@ pub struct Mesh {
     /// An STL, PLY, OBJ, glTF or VTK PolyData: a path, relative to the scene's folder or to the data folder. Its triangles are
     /// flat, each of one normal, unless `smooth` is stated, and are `textured` where the file says that they lie in a texture; where vertices have colors, each triangle has the mean of its own in place of the surface's.
     /// Where the materials of a glTF or OBJ have colors, its triangles have these and their opacity (times that of the `surface`) too, and where they have pictures, these lie on them, unless `textured` states others.
+    ///
+    /// A triangle is as opaque as the mean alpha of its vertices (`COLOR_0` of a glTF) times its material, as `alphaMode` has it: `OPAQUE`
+    /// ignores alpha, `MASK` cuts by it and `BLEND` takes it as it is. The picture of opacity of an OBJ (`map_d`) makes that of its color
+    /// (`map_Kd`, else white times `Kd`) as opaque as its alpha, or, where all of that is opaque, as its stored brightness; of two of
+    /// unlike sizes the one of fewer pixels is interpolated linearly to the other's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// With `file`: which way its axes run; default `lps`, as the world's, but of glTF `y-up`.

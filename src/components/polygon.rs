@@ -71,6 +71,9 @@ pub struct Voxelize {
 }
 
 /// The matting operators of Drebin, Carpenter and Hanrahan 1988, polygon with volume.
+///
+/// Where a polygon is they act on it as opaque as it is stated, and a triangle that its mesh's file makes less opaque is there as much as
+/// one that is opaque: `in` and `out` take the volume away in all of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Matte {

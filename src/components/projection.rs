@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 /// Which value of a volume a ray shows. It is neither lit nor in anyone's light: a value is a measurement and no surface.
 ///
 /// `classify` (a `transfer` or a `colormap`; default: gray over the values that there are, opaque) says what the value looks
-/// like. Rays end at the first opaque polygon.
+/// like. Rays end at the first opaque polygon. One whose way through the volume is so short that none of its samples lies on it shows
+/// what is in the middle of that way, so that the volume ends in the picture where its box does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Projection {

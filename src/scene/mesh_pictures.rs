@@ -1,10 +1,11 @@
 //! The pictures that a mesh's file lays on its triangles, read where the scene lays no texture on them itself.
 
 use super::loading::Loading;
-use crate::components::{TextureFilter, Textured};
+use crate::components::{TextureFilter, Textured, Wrap};
 use crate::error::Error;
-use crate::formats::meshes::{MeshPicture, PicturePlace, Triangles};
+use crate::formats::meshes::{MeshPicture, PicturePlace, Triangles, veiled};
 use crate::polygon::texture::MappedTexture;
+use crate::view::picture::Picture;
 
 /// Whether the pictures of a mesh's own file are wanted: where no `textured` is stated, or one that names the mesh itself.
 pub(super) fn are_wanted(loading: &Loading, entry: usize) -> bool {
@@ -29,19 +30,9 @@ pub(super) fn read(
     }
     let (mut textures, mut numbers, mut failures) = (Vec::new(), Vec::new(), Vec::new());
     for picture in &triangles.pictures {
-        match texture(loading, picture)? {
-            Ok(texture) => {
-                numbers.push(textures.len() as u32);
-                textures.push(texture);
-            }
-            Err(problem) => {
-                numbers.push(u32::MAX);
-                failures.push(format!(
-                    "is shown without its picture `{}`, which {problem}",
-                    picture.name
-                ));
-            }
-        }
+        let texture = texture(loading, picture, &mut failures)?;
+        numbers.push(texture.as_ref().map_or(u32::MAX, |_| textures.len() as u32));
+        textures.extend(texture);
     }
     if let Some((first, rest)) = failures.split_first() {
         let more =
@@ -58,21 +49,46 @@ fn lies_as_stated(loading: &Loading, entry: usize) -> bool {
     loading.get::<Textured>(entry).is_some_and(|textured| textured.corners.is_some())
 }
 
-/// A picture ready for lookups; the inner error is the rest of a sentence about it.
+/// A picture ready for lookups, seen through by its veil if it has one; `None` where it cannot be read, which is kept as a failure,
+/// as that of a veil is.
 fn texture(
     loading: &mut Loading,
     picture: &MeshPicture,
-) -> Result<Result<MappedTexture, String>, Error> {
+    failures: &mut Vec<String>,
+) -> Result<Option<MappedTexture>, Error> {
+    let Some(mut own) = decoded(loading, picture, failures)? else { return Ok(None) };
+    if let Some(veil) = &picture.veil
+        && let Some(veil) = decoded(loading, veil, failures)?
+    {
+        // One of the two is made as large as the other, and then a third of both.
+        loading.afford_passing(3 * (own.pixels.bytes() + veil.pixels.bytes()))?;
+        own = veiled(&own, &veil).unwrap_or(own);
+    }
+    let texture = MappedTexture::new(&own, Wrap::default(), TextureFilter::default());
+    Ok(Some(texture.wrapping(picture.wrap)))
+}
+
+/// The pixels of a picture; `None` where it cannot be read, which is kept as a failure.
+fn decoded(
+    loading: &mut Loading,
+    picture: &MeshPicture,
+    failures: &mut Vec<String>,
+) -> Result<Option<Picture>, Error> {
+    let mut kept = |problem: String| {
+        failures.push(format!("is shown without its picture `{}`, which {problem}", picture.name));
+    };
     let weight = match picture.weighed() {
         Ok((_, weight)) => weight,
-        Err(problem) => return Ok(Err(problem)),
+        Err(problem) => {
+            kept(problem);
+            return Ok(None);
+        }
     };
     if let PicturePlace::Beside(path) = &picture.place {
         loading.files.push(path.clone());
     }
-    // Its levels are kept: its texels, and a third more. The picture itself passes.
+    // Levels of the texture are kept: its texels, and a third more; of two that make one, those of the larger. Pictures pass.
     loading.afford((weight.kept * 4).div_ceil(3))?;
     loading.afford_passing(weight.most())?;
-    let made = |decoded| MappedTexture::new(&decoded, picture.wrap, TextureFilter::default());
-    Ok(picture.decoded().map(made))
+    Ok(picture.decoded().map_err(kept).ok())
 }

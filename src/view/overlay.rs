@@ -92,14 +92,26 @@ impl Canvas {
     /// that they are read before anything.
     pub fn text(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
         if let Some(background) = self.background {
-            let rim = line.height / 12.0;
-            for step in 0..12_u8 {
-                let (dy, dx) = (f32::from(step) * std::f32::consts::TAU / 12.0).sin_cos();
-                let beside = [at[0] + rim * dx, at[1] + rim * dy];
-                line.draw(beside, |pixel, covered| self.put(pixel, background, covered));
-            }
+            self.rim(line, at, background);
         }
         self.letters(line, at, color);
+    }
+
+    /// The same for what stands before a volume: where there is no background, the rim is black or white, whichever the letters
+    /// are set off by.
+    pub fn label(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
+        self.rim(line, at, self.background.unwrap_or(against(color)));
+        self.letters(line, at, color);
+    }
+
+    /// What is as near to a line's letters as their rim is wide.
+    fn rim(&mut self, line: &Line, at: [f32; 2], color: Vec3) {
+        let rim = rim_of(line);
+        for step in 0..12_u8 {
+            let (dy, dx) = (f32::from(step) * std::f32::consts::TAU / 12.0).sin_cos();
+            let beside = [at[0] + rim * dx, at[1] + rim * dy];
+            line.draw(beside, |pixel, covered| self.put(pixel, color, covered));
+        }
     }
 
     /// The same without a rim, for what is written on something that was drawn.
@@ -108,9 +120,53 @@ impl Canvas {
     }
 }
 
+/// How wide the rim of a line's letters is, pixels.
+#[must_use]
+pub fn rim_of(line: &Line) -> f32 {
+    line.height / 12.0
+}
+
+/// Black against what is bright and white against what is dark; colors are linear.
+#[must_use]
+pub fn against(color: Vec3) -> Vec3 {
+    Vec3::splat(if color.dot(Vec3::new(0.21, 0.72, 0.07)) > 0.3 { 0.0 } else { 1.0 })
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::lettering::set;
     use super::*;
+
+    #[test]
+    fn a_label_is_set_off_by_a_rim_with_a_background_and_without_one() {
+        let line = set("mandible", 24.0);
+        let pixels = |background: Option<Vec3>, color: Vec3, is_label: bool| {
+            let mut canvas = Canvas::new([160, 40], background);
+            let at = [8.0, 6.0];
+            if is_label {
+                canvas.label(&line, at, color);
+            } else {
+                canvas.text(&line, at, color);
+            }
+            canvas.picture().pixels.to_vec()
+        };
+        let [dark, bright] = [Vec3::splat(0.1), Vec3::ONE];
+        assert_eq!(pixels(Some(Vec3::X), dark, true), pixels(Some(Vec3::X), dark, false));
+        for (color, rim) in [(dark, bright), (bright, Vec3::ZERO)] {
+            let (plain, label) = (pixels(None, color, false), pixels(None, color, true));
+            // As wide as the rim around letters nothing is seen of what is behind, and it is as far from their color as can be.
+            let rimmed =
+                label.iter().zip(&plain).filter(|(own, before)| before[3] == 0.0 && own[3] > 0.99);
+            let rimmed: Vec<_> = rimmed.map(|(own, _)| *own).collect();
+            assert!(rimmed.len() > 300, "{}", rimmed.len());
+            assert!(
+                rimmed
+                    .iter()
+                    .all(|own| Vec4::from(*own).truncate().abs_diff_eq(rim * own[3], 1e-5))
+            );
+            assert!(plain.iter().zip(&label).all(|(before, own)| own[3] >= before[3] - 1e-6));
+        }
+    }
 
     #[test]
     fn a_convex_polygon_covers_its_area() {

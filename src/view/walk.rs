@@ -146,6 +146,19 @@ impl Walk {
         k >= self.nearest && (0..3).all(inside)
     }
 
+    /// From where to where a ray of a tile is in the grid, in samples: a whole number is a sample, others lie between two. It is
+    /// nowhere in it where the first is not below the second.
+    #[must_use]
+    pub(crate) fn interval(&self, tile: &Tile, lane: usize) -> [f64; 2] {
+        let of = |triples: &[[i64; LANES]; 3]| {
+            DVec3::from(std::array::from_fn(|axis| triples[axis][lane] as f64)) / UNIT
+        };
+        let at = of(&tile.at);
+        let within = Within::new([at, at], of(&tile.step), self.last.as_dvec3() / UNIT);
+        let [low, high] = within.some.map(|step| step + self.middle as f64);
+        [low.max(self.nearest as f64), high]
+    }
+
     /// Whether rays are parallel.
     #[must_use]
     pub(crate) fn is_parallel(&self) -> bool {
@@ -160,6 +173,13 @@ impl Tile {
     pub fn place(&self, axis: usize, lane: usize, k: i64) -> i64 {
         let steps = k.wrapping_sub(self.middle);
         self.at[axis][lane].wrapping_add(self.step[axis][lane].wrapping_mul(steps))
+    }
+
+    /// The fixed-point voxel index of a ray between two samples, on one axis.
+    #[must_use]
+    pub(crate) fn place_between(&self, axis: usize, lane: usize, k: f64) -> i64 {
+        let way = self.step[axis][lane] as f64 * (k - self.middle as f64);
+        self.at[axis][lane].saturating_add(way as i64)
     }
 
     /// The fixed-point voxel index of a ray at a sample.

@@ -100,15 +100,14 @@ impl<'a> Projections<'a> {
         counts: &mut Counts,
     ) {
         let end = hits[first..].iter().find(|hit| is_opaque(hit)).map(|hit| hit.depth);
-        // The first sample at the opaque polygon or behind it; casts saturate.
-        let end = end.map_or(i64::MAX, |depth| (depth / self.distance - 0.5).ceil() as i64);
+        let end = end.map_or(f64::INFINITY, |depth| depth / self.distance - 0.5);
         for (projected, tile) in self.each.iter().zip(entered) {
             let ray = self.camera.ray(Camera::window(packet.position(lane)));
-            let place = |k: i64| ray.at((k as f64 + 0.5) * self.distance);
+            let place = |k: f64| ray.at((k + 0.5) * self.distance);
             let Some(found) = projected.seek((tile, lane), end, place, counts) else {
                 continue;
             };
-            let depth = (found.sample as f64 + 0.5) * self.distance;
+            let depth = (found.sample + 0.5) * self.distance;
             let way = found.sum * self.distance * ray.along.length();
             let at = first + hits[first..].partition_point(|hit| hit.depth <= depth);
             hits.insert(at, Hit { depth, face: u32::MAX, shown: shown.len() as u32 });
@@ -128,23 +127,34 @@ impl Projected<'_> {
     }
 
     /// What a ray of a tile shows, of its samples before number `end`; `None` where it shows nothing. `place` is the world point
-    /// of a sample.
+    /// of a sample, or between two.
+    ///
+    /// A ray whose way through the volume is so short that no sample lies on it shows what is in the middle of that way: where a
+    /// volume ends in the picture is told by its box and not by the places of samples.
     fn seek(
         &self,
         (tile, lane): (&Tile, usize),
-        end: i64,
-        place: impl Fn(i64) -> DVec3,
+        end: f64,
+        place: impl Fn(f64) -> DVec3,
         counts: &mut Counts,
     ) -> Option<Found> {
-        let (first, end) = (tile.some[0], tile.some[1].min(end));
-        let first = (first..end).find(|&k| self.walk.holds(tile, lane, k))?;
+        if tile.is_empty() {
+            return None;
+        }
+        let opaque = end;
+        // The first sample at the opaque polygon or behind it; casts saturate.
+        let (first, end) = (tile.some[0], tile.some[1].min(end.ceil() as i64));
+        let Some(first) = (first..end).find(|&k| self.walk.holds(tile, lane, k)) else {
+            return self.between((tile, lane), opaque, place, counts);
+        };
         // A ray leaves a grid once.
         let holds = |k: i64| k < end && self.walk.holds(tile, lane, k);
         let StatedProjection { shows, grid, scalars, ranges, clip, .. } = self.stated;
-        let is_kept = |k: i64| clip.as_ref().is_none_or(|clip| clip.distance(place(k)) >= 0.0);
+        let is_kept =
+            |k: i64| clip.as_ref().is_none_or(|clip| clip.distance(place(k as f64)) >= 0.0);
         let ray = Sought { tile, lane, size: grid.size, first };
         let emitters = self.emitters.as_ref();
-        let density = |value| emitters.map_or(0.0, |emitters| emitters.density(value));
+        let density = |value| self.density(value);
         // Whether what is nowhere above that value emits nothing.
         let is_silent = |high| emitters.is_none_or(|emitters| high <= emitters.empty_to());
         with_scalars!(scalars, values => match shows {
@@ -162,5 +172,30 @@ impl Projected<'_> {
             ),
             Projection::Mean => ray.mean((values, holds, is_kept), counts),
         })
+    }
+
+    /// What is in the middle of a ray's way through the volume before `end`, where no sample lies on it.
+    fn between(
+        &self,
+        (tile, lane): (&Tile, usize),
+        end: f64,
+        place: impl Fn(f64) -> DVec3,
+        counts: &mut Counts,
+    ) -> Option<Found> {
+        let [low, high] = self.walk.interval(tile, lane);
+        let (high, middle) = (high.min(end), f64::midpoint(low, high.min(end)));
+        let StatedProjection { grid, scalars, clip, .. } = self.stated;
+        let is_cut = || clip.as_ref().is_some_and(|clip| clip.distance(place(middle)) < 0.0);
+        if low >= high || is_cut() {
+            return None;
+        }
+        let ray = Sought { tile, lane, size: grid.size, first: middle as i64 };
+        let density = |value| self.density(value);
+        with_scalars!(scalars, values => ray.between(values, [low, high], density, counts))
+    }
+
+    /// How much a value emits, if any does.
+    fn density(&self, value: f32) -> f64 {
+        self.emitters.as_ref().map_or(0.0, |emitters| emitters.density(value))
     }
 }

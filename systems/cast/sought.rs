@@ -22,9 +22,9 @@ pub(crate) struct Sought<'a> {
 pub(crate) struct Found {
     /// The value that is shown.
     pub value: f32,
-    /// The number of its sample.
-    pub sample: i64,
-    /// The sum of the densities of all samples, where these have any.
+    /// The number of its sample; between two numbers where it lies between two samples.
+    pub sample: f64,
+    /// The sum of the densities of all samples, where these have any, each times the samples' distances that it stands for.
     pub sum: f64,
 }
 
@@ -65,7 +65,27 @@ impl Sought<'_> {
             }
             k += 1;
         }
-        found.map(|(value, sample)| Found { value, sample, sum })
+        found.map(|(value, sample)| Found { value, sample: sample as f64, sum })
+    }
+
+    /// The value in the middle of a way through the volume that no sample lies on, from `low` to `high`, which are numbers of
+    /// samples or between them; its density counts for all of that way.
+    pub fn between<T: Scalar>(
+        &self,
+        values: &[T],
+        [low, high]: [f64; 2],
+        density: impl Fn(f32) -> f64,
+        counts: &mut Counts,
+    ) -> Option<Found> {
+        counts.samples += 1;
+        let sample = f64::midpoint(low, high);
+        let place = std::array::from_fn(|axis| {
+            let last = ((self.size[axis] - 1) as i64) << FRACTION_BITS;
+            self.tile.place_between(axis, self.lane, sample).clamp(0, last)
+        });
+        let value = self.value(values, place, self.cell(place));
+        let found = Found { value, sample, sum: density(value) * (high - low) };
+        value.is_finite().then_some(found)
     }
 
     /// The mean of all values that count, and the number of the last sample.
@@ -88,7 +108,7 @@ impl Sought<'_> {
             k += 1;
         }
         let value = (sum / number as f64) as f32;
-        (number > 0).then_some(Found { value, sample: last, sum: 0.0 })
+        (number > 0).then_some(Found { value, sample: last as f64, sum: 0.0 })
     }
 
     fn place(&self, k: i64) -> [i64; 3] {

@@ -7,6 +7,7 @@ use crate::components::{Axes, OrientationCube};
 use crate::view::axes::Axis;
 use crate::view::camera::Camera;
 use crate::view::lettering::{Line, set};
+use crate::view::overlay::against;
 
 impl Sheet {
     /// The values at the ticks of axes, and what the axes are called; `tick` is a tick's length, world units. A value that
@@ -73,8 +74,7 @@ impl Sheet {
             if facing > 0.3 {
                 let line = set(letter, size * 0.5 * facing.sqrt());
                 let corner = drawn(normal) - Vec2::new(line.width, line.height) / 2.0;
-                let ink = if color.dot(Vec3::new(0.21, 0.72, 0.07)) > 0.3 { 0.0 } else { 1.0 };
-                self.canvas.letters(&line, corner.round().to_array(), Vec3::splat(ink));
+                self.canvas.letters(&line, corner.round().to_array(), against(color));
             }
         }
     }

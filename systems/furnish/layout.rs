@@ -5,7 +5,7 @@ use glam::Vec2;
 use crate::components::{Callout, Color, Corner, Legend, ScaleBar, Title};
 use crate::view::axes::round;
 use crate::view::lettering::{Line, set};
-use crate::view::overlay::Canvas;
+use crate::view::overlay::{Canvas, rim_of};
 
 /// A picture being furnished.
 pub(crate) struct Sheet {
@@ -131,15 +131,30 @@ impl Sheet {
         self.canvas.text(&ends[1], [beside, y + height - ends[1].height], legend.color.0);
     }
 
-    /// The text of a callout beside the window position where its line begins, on the side away from the line.
+    /// The text of a callout beside the window position where its line begins, on the side away from the line; where the line begins
+    /// in the picture, the text does not stick out of it.
     pub fn callout(&mut self, callout: &Callout, is_left: bool, from: Vec2) {
         let letters = self.letters(callout.letters_pixels, 1.0 / 30.0);
         let line = set(&callout.text, letters);
         let gap = letters * 0.3;
         let x = if is_left { from.x - gap - line.width } else { from.x + gap };
-        let at = [x.round(), (from.y - line.height / 2.0).round()];
-        self.canvas.text(&line, at, callout.color.0);
-        self.take(at.into(), [line.width, line.height].into());
+        let at = Vec2::new(x, from.y - line.height / 2.0);
+        let own = Vec2::new(line.width, line.height);
+        let at = if self.holds(from) { self.within(at, own, rim_of(&line)) } else { at }.round();
+        self.canvas.label(&line, at.to_array(), callout.color.0);
+        self.take(at, own);
+    }
+
+    /// Whether a window position is in the picture.
+    fn holds(&self, at: Vec2) -> bool {
+        at.cmpge(Vec2::ZERO).all() && at.cmple(self.size.into()).all()
+    }
+
+    /// The top left nearest to `corner` of something of that size that lies within the picture, `margin` from its borders; what is
+    /// too large begins at the left or the top.
+    fn within(&self, corner: Vec2, own: Vec2, margin: f32) -> Vec2 {
+        let last = Vec2::from(self.size) - own - margin;
+        corner.min(last.floor()).max(Vec2::splat(margin.ceil()))
     }
 }
 
@@ -174,6 +189,39 @@ mod tests {
     fn values_are_written_short() {
         assert_eq!([short(-20.0), short(0.25), short(-0.0)], ["−20", "0.25", "0"]);
         assert_eq!([rounded(-160.0, 400.0), rounded(0.25, 0.5)], ["−160", "0.25"]);
+    }
+
+    #[test]
+    fn the_text_of_a_callout_whose_line_begins_in_the_picture_is_in_it_too() {
+        let callout = |from: [f32; 2]| {
+            let mut sheet = Sheet::new([200, 100], None);
+            let text = "suture".to_owned();
+            let callout = Callout {
+                text,
+                at: [0.0; 3],
+                from: [1.0; 3],
+                color: Color::WHITE,
+                width_mm: None,
+                letters_pixels: Some(20.0),
+            };
+            sheet.callout(&callout, false, from.into());
+            sheet.taken[0]
+        };
+        let size = Vec2::new(200.0, 100.0);
+        let place = |[low, _]: [Vec2; 2]| low;
+        assert_eq!(
+            place(callout([20.0, 50.0])),
+            Vec2::new(26.0, 40.0),
+            "where there is room it is beside its line"
+        );
+        for from in [[199.0, 50.0], [150.0, 1.0], [1.0, 99.0]] {
+            let [low, high] = callout(from);
+            assert!(low.cmpge(Vec2::ONE).all() && high.cmple(size - 1.0).all(), "{low} {high}");
+        }
+        assert!(
+            callout([230.0, 50.0])[0].x > 200.0,
+            "what is not in the picture is not drawn into it"
+        );
     }
 
     #[test]

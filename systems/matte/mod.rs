@@ -7,10 +7,10 @@ use glam::{Vec3, Vec4};
 use hecs::{Entity, World};
 use rayon::prelude::*;
 
-use crate::components::{CastsShadow, Clip, Light, Order, Surface, Voxelize};
+use crate::components::{CastsShadow, Clip, Light, Matte, Order, Surface, Voxelize};
 use crate::error::Error;
-use crate::polygon::coverage::{Ball, Flat};
-use crate::polygon::face::Faces;
+use crate::polygon::coverage::{Ball, Covered, Flat};
+use crate::polygon::face::{FaceOpacities, Faces};
 use crate::polygon::matted::matted;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
@@ -51,6 +51,16 @@ struct Polygon {
     voxelize: Voxelize,
     surface: Surface,
     faces: Faces,
+    /// Parts of its surface's opacity that its faces have, where they are less opaque.
+    opacities: Option<FaceOpacities>,
+}
+
+/// What tells where a polygon is, and how much of a voxel it takes up there.
+struct There {
+    /// α_G where it is wholly there and as opaque as its surface: the least over the faces' directions in the grid.
+    peak: f32,
+    /// The same for each voxel, of the faces that are there, where some are less opaque and an operator asks.
+    own: Option<Bricks<[f32; 3]>>,
 }
 
 /// One of the colours that a layer keeps.
@@ -173,20 +183,20 @@ fn paint(
 impl Polygon {
     /// Every scan-converted polygon, in the order of the scene.
     fn all(world: &World) -> Vec<Self> {
-        let mut query = world.query::<(&Coverage, &Voxelize, &Surface, &Faces, Option<&Order>)>();
+        type Stated<'a> = (
+            (&'a Coverage, &'a Voxelize, &'a Surface),
+            (&'a Faces, Option<&'a FaceOpacities>),
+            Option<&'a Order>,
+        );
+        let mut query = world.query::<Stated<'_>>();
         let mut all: Vec<_> = query.iter().collect();
         all.sort_by_key(|(.., order)| order.copied());
-        let polygon = |(coverage, voxelize, surface, faces, _): (
-            &Coverage,
-            &Voxelize,
-            &Surface,
-            &Faces,
-            _,
-        )| Self {
+        let polygon = |((coverage, voxelize, surface), (faces, opacities), _): Stated<'_>| Self {
             coverage: coverage.0.clone(),
             voxelize: voxelize.clone(),
             surface: surface.clone(),
             faces: faces.clone(),
+            opacities: opacities.cloned(),
         };
         all.into_iter().map(polygon).collect()
     }
@@ -196,12 +206,24 @@ impl Polygon {
         around(volumes, || self.faces.middle()).is_some_and(|volume| volume.entity == entity)
     }
 
-    /// α_G of a voxel where the polygon is wholly there: the least over the faces' directions in the grid.
-    fn peak(&self, grid: &Grid, unit: f64) -> f32 {
+    /// What tells how much of a voxel it takes up.
+    fn there(&self, grid: &Grid, unit: f64) -> There {
         let flats: Vec<Flat> =
             self.faces.0.par_iter().filter_map(|face| Flat::new(face, grid)).collect();
         let ball = Ball::stated(&self.surface, &self.voxelize, unit, grid, &flats);
-        flats.iter().map(|flat| ball.peak(flat.layer)).fold(1.0, f64::min) as f32
+        let least = |a: &f64, b: &f64| ball.peak(*a).total_cmp(&ball.peak(*b));
+        let Some(layer) = flats.iter().map(|flat| flat.layer).min_by(least) else {
+            return There { peak: 1.0, own: None };
+        };
+        let peak = |part: f32| ball.opacity(f64::from(part), 0.5, layer).min(1.0) as f32;
+        // What is half as opaque is not half there; the other operators do not ask.
+        let asks = matches!(self.voxelize.matte, Matte::In | Matte::Out);
+        let own = self.opacities.as_ref().filter(|_| asks).map(|own| {
+            let of_face = |at| Vec3::splat(peak(FaceOpacities::of(Some(own), at)));
+            let covered = Covered::new(&self.faces.0, &flats, &ball, grid.size);
+            covered.colors(&(0..flats.len()).map(of_face).collect::<Vec<_>>())
+        });
+        There { peak: peak(1.0), own }
     }
 }
 
@@ -217,15 +239,16 @@ impl Channel {
 
 impl Inputs {
     fn composite(&self) -> Layer {
-        let peaks: Vec<f32> = self.polygons.iter().map(|p| p.peak(&self.grid, self.unit)).collect();
+        let there: Vec<There> =
+            self.polygons.iter().map(|p| p.there(&self.grid, self.unit)).collect();
         let opacity = Bricks::make(self.grid.size, |place, alpha| {
             self.backdrop.opacity(&self.grid, place, alpha);
-            self.matte(&peaks, place, alpha, |_, _, _, _| {});
+            self.matte(&there, place, alpha, |_, _, _, _| {});
             alpha.iter().any(|&alpha| alpha > 0.0)
         });
         let layers = || self.polygons.iter().map(|polygon| &polygon.coverage.colors);
         let apart = layers().any(|colors| colors.ambient.is_some());
-        let bricks = |channel| self.color(&peaks, &opacity, channel);
+        let bricks = |channel| self.color(&there, &opacity, channel);
         let lights = layers().map(|colors| colors.shadowed.len()).max().unwrap_or(0);
         let base = bricks(Channel::Base);
         let shadowed = (0..lights).map(|light| bricks(Channel::Shadowed(light))).collect();
@@ -234,7 +257,7 @@ impl Inputs {
     }
 
     /// One of the composite's colours. Bricks in which it is black are kept of `base` alone.
-    fn color(&self, peaks: &[f32], opacity: &Bricks<f32>, channel: Channel) -> Bricks<[f32; 3]> {
+    fn color(&self, there: &[There], opacity: &Bricks<f32>, channel: Channel) -> Bricks<[f32; 3]> {
         Bricks::make(self.grid.size, |place, made| {
             if opacity.brick(place.brick).is_none() {
                 return false;
@@ -242,7 +265,7 @@ impl Inputs {
             let mut alpha = [0.0; VOXELS];
             self.backdrop.opacity(&self.grid, place, &mut alpha);
             self.backdrop.color(&self.grid, place, channel, made);
-            self.matte(peaks, place, &mut alpha, |colors, at, parts, whole| {
+            self.matte(there, place, &mut alpha, |colors, at, parts, whole| {
                 let of_polygon = channel.of(colors).and_then(|bricks| bricks.brick(place.brick));
                 let of_polygon = of_polygon.map_or(Vec3::ZERO, |brick| Vec3::from(brick[at]));
                 let part = if whole > 0.0 { parts[0] / whole } else { 0.0 };
@@ -256,17 +279,18 @@ impl Inputs {
     /// Mattes every polygon in turn with what there is of a brick, from α_V to α_C; tells of every voxel that changes.
     fn matte(
         &self,
-        peaks: &[f32],
+        there: &[There],
         place: BrickPlace,
         alpha: &mut [f32; VOXELS],
         mut tell: impl FnMut(&LitColors, usize, [f32; 2], f32),
     ) {
-        for (polygon, peak) in self.polygons.iter().zip(peaks) {
+        for (polygon, there) in self.polygons.iter().zip(there) {
             let Some(covered) = polygon.coverage.opacity.brick(place.brick) else { continue };
+            let own = there.own.as_ref().and_then(|own| own.brick(place.brick));
             for (at, &covered) in covered.iter().enumerate().filter(|(_, covered)| **covered > 0.0)
             {
-                let there = footprint(covered, *peak);
-                let parts = weights(polygon.voxelize.matte, covered, alpha[at], there);
+                let part = footprint(covered, own.map_or(there.peak, |own| own[at][0]));
+                let parts = weights(polygon.voxelize.matte, covered, alpha[at], part);
                 alpha[at] = (parts[0] + parts[1]).min(1.0);
                 tell(&polygon.coverage.colors, at, parts, parts[0] + parts[1]);
             }

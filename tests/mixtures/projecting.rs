@@ -107,6 +107,36 @@ pub(crate) fn ball(shows: &str) -> String {
 }
 
 #[test]
+fn a_volume_ends_in_the_picture_where_its_box_does_whatever_the_distance_of_samples() {
+    let (grid, scalars) = volume(vec![1.0_f32; 24 * 24 * 24], [24; 3], [1.0; 3]).unwrap();
+    let picture = |shows, distance: f64, field_of_view| {
+        let opaque = |value| TransferPoint { value, opacity: 1.0, color: Some(Color::WHITE) };
+        let transfer = vec![opaque(0.0), opaque(1.0)];
+        let classify: Classify = Classify { transfer, ..Classify::default() };
+        let mut world = World::new();
+        world.spawn((grid, scalars.clone(), classify, shows));
+        let (azimuth, elevation, size) = (45.0, 8.0, [120, 120]);
+        let view = View { azimuth, elevation, size, field_of_view, ..View::default() };
+        world.spawn((view, Sampling { distance_mm: Some(distance), ..every_pixel() }));
+        Renderer::new().unwrap().render(&mut world).unwrap().picture
+    };
+    for shows in [Projection::Maximum, Projection::Minimum, Projection::Mean] {
+        for field_of_view in [None, Some(40.0)] {
+            let [coarse, fine] =
+                [2.0, 0.01].map(|distance| picture(shows, distance, field_of_view));
+            let unlike = pixels(&fine)
+                .filter(|&[x, y]| difference(coarse.pixel(x, y), fine.pixel(x, y)) > 1e-6);
+            assert_eq!(unlike.count(), 0, "{shows:?} {field_of_view:?}");
+        }
+    }
+    // What emitters make of a way that no sample lies on is what they make of that way, not of a step: thin as it is, it is dark.
+    let [coarse, fine] = [2.0, 0.01].map(|distance| picture(Projection::Sabella, distance, None));
+    let covered =
+        |picture: &Picture| pixels(picture).filter(|&[x, y]| picture.pixel(x, y)[3] > 0.0).count();
+    assert_eq!(covered(&coarse), covered(&fine));
+}
+
+#[test]
 fn a_polygon_is_before_or_behind_the_greatest_value_of_its_ray() {
     let red = |opacity: f64| {
         format!("surface = {{ color = \"red\", opacity = {opacity}, ambient = 1, diffuse = 0 }}")

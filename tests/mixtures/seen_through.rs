@@ -58,6 +58,16 @@ fn a_traced_triangle_is_as_opaque_as_its_material_times_its_surface() {
 }
 
 #[test]
+fn what_is_seen_through_is_wholly_there_for_every_operator() {
+    for matte in ["under", "in", "out", "atop"] {
+        let keys = format!("voxelize = {{ matte = \"{matte}\" }}");
+        let apart = apart(&keys, 1.0);
+        println!("{matte}: {apart}");
+        assert!(apart < 1e-3, "{matte}: {apart}");
+    }
+}
+
+#[test]
 fn a_scan_converted_triangle_is_as_opaque_as_its_material() {
     for keys in ["voxelize = { calibrated = false }", "voxelize = {}"] {
         let apart = apart(keys, 1.0);

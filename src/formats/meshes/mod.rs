@@ -6,6 +6,7 @@ mod pictures;
 mod ply;
 mod stl;
 mod triangles;
+mod veiled;
 mod vtk;
 mod vtp;
 
@@ -18,6 +19,7 @@ use super::stream::Stream;
 use crate::error::Error;
 pub use pictures::{MeshPicture, PictureAlpha, PicturePlace};
 pub use triangles::{AtCorners, Triangles};
+pub(crate) use veiled::veiled;
 
 /// A format of meshes: a row of `MESH_FORMATS`.
 pub struct MeshFormat {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::super::pictures::{Opened, Weight, read_held, weighed_held};
 use super::super::stream::Stream;
 use crate::components::Wrap;
+use crate::components::color::to_srgb;
 use crate::view::picture::Picture;
 
 /// The most pictures of a file.
@@ -22,8 +23,10 @@ pub struct MeshPicture {
     pub place: PicturePlace,
     /// What becomes of its alpha.
     pub alpha: PictureAlpha,
-    /// What lies outside it.
-    pub wrap: Wrap,
+    /// What lies outside it: to its sides, and above and below.
+    pub wrap: [Wrap; 2],
+    /// A picture of its opacity beside it, if there is one; it lies where this one does.
+    pub veil: Option<Box<MeshPicture>>,
 }
 
 /// Where the bytes of a picture are.
@@ -49,10 +52,12 @@ pub enum PictureAlpha {
         /// Above 0.
         least: f32,
     },
+    /// The picture is one of opacity, and white: as opaque as its alpha, or, where none of it is less than opaque, as it is bright.
+    Veil,
 }
 
 impl MeshPicture {
-    /// Pixels across and down, and what it takes in memory, by its header alone.
+    /// Pixels across and down, and what it takes in memory, by its header alone, without its veil.
     ///
     /// The error is a sentence without a subject: no such file, of no known format, damaged, too large.
     pub fn weighed(&self) -> Result<([usize; 2], Weight), String> {
@@ -72,7 +77,7 @@ impl MeshPicture {
         Ok((size, Weight { kept, passing: passing.max(kept) }))
     }
 
-    /// Its pixels, their alpha as it counts; errors as those of [`weighed`](Self::weighed).
+    /// Its pixels, their alpha as it counts, without its veil; errors as those of [`weighed`](Self::weighed).
     pub fn decoded(&self) -> Result<Picture, String> {
         let bytes = match &self.place {
             PicturePlace::Within(bytes) => Cow::Borrowed(&bytes[..]),
@@ -84,12 +89,16 @@ impl MeshPicture {
 }
 
 impl PictureAlpha {
-    /// How opaque a surface is that has no picture, 0..=1.
-    pub(super) fn alone(self) -> f32 {
+    /// How opaque a triangle is beside its picture, if it has one, whose corners have that mean alpha, 0..=1.
+    ///
+    /// A picture has the factor in it. One that is cut is cut by its own alpha; what its corners make less than the least
+    /// value, whatever it may be, is not there.
+    pub(super) fn seen(self, corners: f32, has_picture: bool) -> f32 {
         match self {
-            Self::Opacity(factor) => factor,
-            Self::Cut { factor, least } if factor < least => 0.0,
-            Self::Ignored | Self::Cut { .. } => 1.0,
+            Self::Opacity(_) if has_picture => corners,
+            Self::Opacity(factor) => factor * corners,
+            Self::Cut { factor, least } if factor * corners < least => 0.0,
+            Self::Ignored | Self::Veil | Self::Cut { .. } => 1.0,
         }
     }
 
@@ -99,11 +108,13 @@ impl PictureAlpha {
             Self::Ignored => [0; 3],
             Self::Opacity(factor) => [1, factor.to_bits(), 0],
             Self::Cut { factor, least } => [2, factor.to_bits(), least.to_bits()],
+            Self::Veil => [3, 0, 0],
         }
     }
 
     /// The picture with its alpha as it counts.
     fn taken(self, picture: Picture) -> Picture {
+        let is_bright = picture.pixels.iter().all(|pixel| pixel[3] >= 1.0);
         let opaque = |[r, g, b, alpha]: [f32; 4]| {
             let share = if alpha > 0.0 { alpha } else { 1.0 };
             [r / share, g / share, b / share, 1.0]
@@ -113,16 +124,29 @@ impl PictureAlpha {
             Self::Opacity(factor) => pixel.map(|channel| channel * factor),
             Self::Cut { factor, least } if pixel[3] * factor >= least => opaque(pixel),
             Self::Cut { .. } => [0.0; 4],
+            // Files of whole numbers store opacities as they are, and not as light.
+            Self::Veil if is_bright => [stored_mean(pixel); 4],
+            Self::Veil => [pixel[3]; 4],
         };
         let is_as_it_was = match self {
-            Self::Ignored => picture.pixels.iter().all(|pixel| pixel[3] >= 1.0),
+            Self::Ignored => is_bright,
             Self::Opacity(factor) => factor >= 1.0,
-            Self::Cut { .. } => false,
+            Self::Cut { .. } | Self::Veil => false,
         };
         let changed =
             || Picture::new(picture.size, picture.pixels.iter().copied().map(of).collect());
         if is_as_it_was { None } else { changed() }.unwrap_or(picture)
     }
+}
+
+/// The mean of a pixel's colors as files of whole numbers store them, 0..=1.
+fn stored_mean([r, g, b, _]: [f32; 4]) -> f32 {
+    let stored = |channel: f32| match channel {
+        1.0.. => 1.0,
+        0.0.. => to_srgb(channel),
+        _ => 0.0,
+    };
+    (stored(r) + stored(g) + stored(b)) / 3.0
 }
 
 /// Adds a picture and tells its number; the error is the sentence about one too many.
@@ -150,6 +174,7 @@ pub(super) fn say_once(warnings: &mut Vec<String>, sentence: impl Into<String>) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::components::color::to_linear;
 
     #[test]
     fn alpha_is_ignored_taken_or_cut() {
@@ -159,5 +184,26 @@ mod tests {
         assert_eq!(pixels(PictureAlpha::Opacity(0.5)), [[0.1, 0.05, 0.0, 0.2], [0.3; 4]]);
         let cut = PictureAlpha::Cut { factor: 1.0, least: 0.5 };
         assert_eq!(pixels(cut), [[0.0; 4], [1.0; 4]]);
+        assert_eq!(pixels(PictureAlpha::Veil), [[0.4; 4], [0.6; 4]]);
+    }
+
+    #[test]
+    fn a_veil_without_alpha_is_as_opaque_as_its_stored_grey() {
+        let grey = [to_linear(0.5), to_linear(0.5), to_linear(0.5), 1.0];
+        let picture =
+            Picture::new([3, 1], vec![grey, [0.0, 0.0, 0.0, 1.0], [f32::NAN, 7.0, 1.0, 1.0]]);
+        let pixels = PictureAlpha::Veil.taken(picture.unwrap()).pixels;
+        assert!((pixels[0][3] - 0.5).abs() < 1e-6 && pixels[1] == [0.0; 4]);
+        assert!((pixels[2][3] - 2.0 / 3.0).abs() < 1e-6 && pixels[2][0] == pixels[2][3]);
+    }
+
+    #[test]
+    fn the_alpha_of_corners_counts_beside_a_picture_as_without_one() {
+        let seen = |alpha: PictureAlpha| {
+            [1.0, 0.5].map(|corners| [false, true].map(|pictured| alpha.seen(corners, pictured)))
+        };
+        assert_eq!(seen(PictureAlpha::Ignored), [[1.0; 2]; 2]);
+        assert_eq!(seen(PictureAlpha::Opacity(0.5)), [[0.5, 1.0], [0.25, 0.5]]);
+        assert_eq!(seen(PictureAlpha::Cut { factor: 0.8, least: 0.5 }), [[1.0; 2], [0.0; 2]]);
     }
 }

@@ -13,12 +13,18 @@ use super::mip::MipLevel;
 use crate::components::Wrap;
 
 /// The mean over the footprint, at least a texel wide, in the finest level where it covers not too many texels.
-pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
+pub(super) fn average(
+    levels: &[MipLevel],
+    wrap: [Wrap; 2],
+    uv: DVec2,
+    footprint: &Footprint,
+) -> Vec4 {
     let fits = |level: &&MipLevel| {
         let sides = footprint.in_texels(level.size);
         let reach = sides.x_axis.abs() + sides.y_axis.abs();
         let met = sides.determinant().abs() + reach.x + reach.y;
-        met <= MOST_TEXELS || wrap.period().is_none() && level.texels.len() as f64 <= MOST_TEXELS
+        let ends = wrap.iter().all(|wrap| wrap.period().is_none());
+        met <= MOST_TEXELS || ends && level.texels.len() as f64 <= MOST_TEXELS
     };
     match levels.iter().find(fits) {
         Some(level) => mean(level, wrap, uv, widened(footprint.in_texels(level.size))),
@@ -28,21 +34,21 @@ pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Fo
 }
 
 /// The mean over the parallelogram with the columns of `sides`, in texels, about `uv`.
-fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, sides: DMat2) -> Vec4 {
+fn mean(level: &MipLevel, wrap: [Wrap; 2], uv: DVec2, sides: DMat2) -> Vec4 {
     let size = DVec2::new(level.size[0] as f64, level.size[1] as f64);
     let (p, q) = (sides.x_axis / 2.0, sides.y_axis / 2.0);
     let reach = p.abs() + q.abs();
     // Wholly outside, how far outside makes no difference; near the texture the areas keep their digits.
-    let end = size * wrap.period().unwrap_or(1.0);
+    let end = size * DVec2::from(wrap.map(|wrap| wrap.period().unwrap_or(1.0)));
     let at = (uv * size).clamp(-reach - 1.0, end + reach + 1.0);
     let corners = [at - p - q, at + p - q, at + p + q, at - p + q];
-    let rows = Cells::new(at.y - reach.y..at.y + reach.y, level.size[1], wrap);
+    let rows = Cells::new(at.y - reach.y..at.y + reach.y, level.size[1], wrap[1]);
     let mut sum = DVec4::ZERO;
     for row in rows.numbers.clone() {
         let pieces = Pieces::new(&corners, rows.borders(row));
-        if let (Some(y), Some(span)) = (wrap.texel(row, level.size[1]), pieces.span()) {
+        if let (Some(y), Some(span)) = (wrap[1].texel(row, level.size[1]), pieces.span()) {
             let texels = &level.texels[y * level.size[0]..][..level.size[0]];
-            sum += pieces.weighed(texels, &Cells::new(span, level.size[0], wrap), wrap);
+            sum += pieces.weighed(texels, &Cells::new(span, level.size[0], wrap[0]), wrap[0]);
         }
     }
     // Edges that run the other way round make all shares negative.

@@ -7,13 +7,13 @@ use super::mip::MipLevel;
 use crate::components::Wrap;
 
 /// The texel that `uv` lies in.
-pub(super) fn nearest(level: &MipLevel, wrap: Wrap, uv: DVec2) -> Vec4 {
+pub(super) fn nearest(level: &MipLevel, wrap: [Wrap; 2], uv: DVec2) -> Vec4 {
     let at = (uv * size(level)).floor();
     level.texel(at.x as i64, at.y as i64, wrap).unwrap_or(Vec4::ZERO)
 }
 
 /// The bilinear interpolation of the texels whose centres are around `uv`; what has vanished counts as nothing.
-pub(super) fn bilinear(level: &MipLevel, wrap: Wrap, uv: DVec2) -> Vec4 {
+pub(super) fn bilinear(level: &MipLevel, wrap: [Wrap; 2], uv: DVec2) -> Vec4 {
     let at = uv * size(level) - 0.5;
     let (first, part) = (at.floor(), (at - at.floor()).as_vec2());
     let (x, y) = (first.x as i64, first.y as i64);
@@ -24,7 +24,12 @@ pub(super) fn bilinear(level: &MipLevel, wrap: Wrap, uv: DVec2) -> Vec4 {
 }
 
 /// Bilinear in the two levels whose texels are as long as the footprint's longer axis, just below and just above.
-pub(super) fn trilinear(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
+pub(super) fn trilinear(
+    levels: &[MipLevel],
+    wrap: [Wrap; 2],
+    uv: DVec2,
+    footprint: &Footprint,
+) -> Vec4 {
     let long = longest(footprint.in_texels(levels[0].size)).max(1.0);
     let number = libm::log2(long).min((levels.len() - 1) as f64);
     let (fine, part) = (number.floor() as usize, (number - number.floor()) as f32);

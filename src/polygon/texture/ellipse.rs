@@ -42,7 +42,12 @@ impl Gaussian {
 }
 
 /// The mean weighed by the Gaussian, in the finest level where it covers not too many texels.
-pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Footprint) -> Vec4 {
+pub(super) fn average(
+    levels: &[MipLevel],
+    wrap: [Wrap; 2],
+    uv: DVec2,
+    footprint: &Footprint,
+) -> Vec4 {
     let gaussian = |level: &MipLevel| Gaussian::new(widened(footprint.in_texels(level.size)));
     let fits = |level: &&MipLevel| gaussian(level).texels() <= MOST_TEXELS;
     if let Some(level) = levels.iter().find(fits) {
@@ -50,7 +55,7 @@ pub(super) fn average(levels: &[MipLevel], wrap: Wrap, uv: DVec2, footprint: &Fo
     }
     let last = &levels[levels.len() - 1];
     // Hundreds of textures in each direction: the mean of what repeats, and the part that a single one is.
-    let part = if wrap == Wrap::Vanish { density(gaussian(last), uv - 0.5) } else { 1.0 };
+    let part = if wrap == [Wrap::Vanish; 2] { density(gaussian(last), uv - 0.5) } else { 1.0 };
     last.texels[0] * part as f32
 }
 
@@ -62,15 +67,15 @@ fn density(g: Gaussian, from: DVec2) -> f64 {
 }
 
 /// The mean of a level's texels, each weighed by the Gaussian at its centre.
-fn mean(level: &MipLevel, wrap: Wrap, uv: DVec2, g: Gaussian) -> Vec4 {
+fn mean(level: &MipLevel, wrap: [Wrap; 2], uv: DVec2, g: Gaussian) -> Vec4 {
     let at = uv * DVec2::new(level.size[0] as f64, level.size[1] as f64) - 0.5;
     let reach = (CUT * g.variance.z).sqrt();
     let (mut sum, mut total) = (DVec4::ZERO, 0.0);
     for row in (at.y - reach).ceil() as i64..=(at.y + reach).floor() as i64 {
-        let texels = wrap
+        let texels = wrap[1]
             .texel(row, level.size[1])
             .map_or(&[][..], |y| &level.texels[y * level.size[0]..][..level.size[0]]);
-        let (row_sum, row_total) = weighed_row(texels, wrap, at.x, row as f64 - at.y, g);
+        let (row_sum, row_total) = weighed_row(texels, wrap[0], at.x, row as f64 - at.y, g);
         sum += row_sum;
         total += row_total;
     }

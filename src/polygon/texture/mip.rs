@@ -50,8 +50,8 @@ impl MipLevel {
     }
 
     /// The texel at a column and row of the endless plane; `None` where the texture has vanished.
-    pub fn texel(&self, x: i64, y: i64, wrap: Wrap) -> Option<Vec4> {
-        let (x, y) = (wrap.texel(x, self.size[0])?, wrap.texel(y, self.size[1])?);
+    pub fn texel(&self, x: i64, y: i64, wrap: [Wrap; 2]) -> Option<Vec4> {
+        let (x, y) = (wrap[0].texel(x, self.size[0])?, wrap[1].texel(y, self.size[1])?);
         Some(self.texels[y * self.size[0] + x])
     }
 }

@@ -32,7 +32,8 @@ pub use own::OwnTextures;
 #[derive(Debug, Clone)]
 pub struct MappedTexture {
     levels: Arc<[MipLevel]>,
-    wrap: Wrap,
+    /// To its sides, and above and below; neither vanishes where the other does not.
+    wrap: [Wrap; 2],
     filter: TextureFilter,
 }
 
@@ -50,13 +51,21 @@ impl MappedTexture {
     /// Colours that are not finite become 0, opacities are held within 0..=1; a picture of no pixels is transparent.
     #[must_use]
     pub fn new(picture: &Picture, wrap: Wrap, filter: TextureFilter) -> Self {
-        Self { levels: mip::levels(picture).into(), wrap, filter }
+        Self { levels: mip::levels(picture).into(), wrap: [wrap; 2], filter }
     }
 
     /// Another way to look up the same texels, which are shared.
     #[must_use]
     pub fn with(&self, wrap: Wrap, filter: TextureFilter) -> Self {
-        Self { levels: Arc::clone(&self.levels), wrap, filter }
+        Self { levels: Arc::clone(&self.levels), wrap: [wrap; 2], filter }
+    }
+
+    /// The same texels, which go on in one way to their sides and in another above and below; where one of them is that all
+    /// vanishes, it does on every side.
+    #[must_use]
+    pub(crate) fn wrapping(&self, wrap: [Wrap; 2]) -> Self {
+        let wrap = if wrap.contains(&Wrap::Vanish) { [Wrap::Vanish; 2] } else { wrap };
+        Self { wrap, ..self.clone() }
     }
 
     /// Texels across and down.
@@ -101,7 +110,10 @@ impl MappedTexture {
     fn placed(&self, uv: DVec2) -> DVec2 {
         let finite = |x: f64| if x.is_nan() { 0.5 } else { x.clamp(-1e9, 1e9) };
         let uv = DVec2::new(finite(uv.x), finite(uv.y));
-        self.wrap.period().map_or(uv, |period| uv - period * (uv / period).floor())
+        let within = |x: f64, wrap: Wrap| {
+            wrap.period().map_or(x, |period| x - period * (x / period).floor())
+        };
+        DVec2::new(within(uv.x, self.wrap[0]), within(uv.y, self.wrap[1]))
     }
 }
 

@@ -68,6 +68,20 @@ fn everywhere(picture: &Picture, check: impl Fn(Vec4, Wrap, String)) {
     }
 }
 
+/// Calls `check` with each result of a texture at every place and footprint, by each filter, and with what they were.
+fn everywhere_of(texture: &MappedTexture, check: impl Fn(Vec4, String)) {
+    for (footprint, uv) in
+        footprints().into_iter().flat_map(|footprint| PLACES.map(|uv| (footprint, uv)))
+    {
+        let uv = DVec2::from(uv);
+        check(texture.average(uv, &footprint), format!("average {uv} {footprint:?}"));
+        for filter in FILTERS {
+            let texture = MappedTexture { filter, ..texture.clone() };
+            check(texture.filtered(uv, &footprint), format!("{filter:?} {uv} {footprint:?}"));
+        }
+    }
+}
+
 #[test]
 fn results_lie_among_the_texels_whatever_is_asked() {
     for size in SIZES {
@@ -148,6 +162,43 @@ fn what_is_mirrored_is_a_picture_of_itself_and_its_mirror_images_that_repeats() 
             }
         }
     }
+}
+
+#[test]
+fn a_texture_may_go_on_in_one_way_to_its_sides_and_in_another_above_and_below() {
+    let (own, size) = (speckled([16, 8]), [16, 8]);
+    let ways = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
+    for wrap in ways.into_iter().flat_map(|across| ways.map(|down| [across, down])) {
+        let texture = MappedTexture::new(&own, Wrap::Repeat, Bilinear).wrapping(wrap);
+        // What that is, laid out: three textures across and three down, and what is asked for in the middle.
+        let index = |at: usize, axis: usize| {
+            wrap[axis].texel(at as i64 - size[axis] as i64, size[axis]).unwrap()
+        };
+        let whole = picture([48, 24], |x, y| own.pixel(index(x, 0), index(y, 1)));
+        let whole = MappedTexture::new(&whole, Wrap::Clamp, Bilinear);
+        for (side, uv) in [0.0, 0.05, 0.4].into_iter().flat_map(|side| {
+            [[0.3, 0.8], [1.2, 0.1], [-0.4, 1.3], [1.5, -0.3], [0.0, 1.0]].map(|uv| (side, uv))
+        }) {
+            let uv = DVec2::from(uv);
+            let footprint = |part: f64| square(side * part);
+            let within = (uv + 1.0) / 3.0;
+            let what = format!("{wrap:?} {side} {uv}");
+            let a = texture.average(uv, &footprint(1.0));
+            assert!(a.abs_diff_eq(whole.average(within, &footprint(1.0 / 3.0)), 1e-5), "{what}");
+            for filter in [Ellipse, Bilinear, Nearest] {
+                let as_is = |texture: &MappedTexture| MappedTexture { filter, ..texture.clone() };
+                let a = as_is(&texture).filtered(uv, &footprint(1.0));
+                let b = as_is(&whole).filtered(within, &footprint(1.0 / 3.0));
+                assert!(a.abs_diff_eq(b, 1e-5), "{filter:?} {what}: {a} {b}");
+            }
+        }
+        everywhere_of(&texture, |found, what| {
+            assert!(found.is_finite() && (0.0..=1.0).contains(&found.w), "{what}");
+        });
+    }
+    let vanishing = MappedTexture::new(&own, Wrap::Repeat, Ellipse);
+    let vanishing = vanishing.wrapping([Wrap::Vanish, Wrap::Clamp]);
+    assert_eq!(vanishing, vanishing.with(Wrap::Vanish, Ellipse));
 }
 
 #[test]

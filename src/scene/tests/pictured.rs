@@ -2,11 +2,15 @@
 
 use std::path::Path;
 
+use glam::DVec2;
+use hecs::World;
+
 use super::{loaded, only};
-use crate::components::{Textured, Wrap};
+use crate::components::color::to_linear;
+use crate::components::{TextureFilter, Textured, Wrap};
 use crate::formats::pictures::write_picture;
 use crate::polygon::face::{FaceColors, FaceOpacities};
-use crate::polygon::texture::{Laid, OwnTextures, TexturedBy};
+use crate::polygon::texture::{Footprint, Laid, OwnTextures, TexturedBy};
 use crate::scene::{Kept, Loads, Scene, Source, load, load_keeping};
 use crate::view::picture::Picture;
 
@@ -87,6 +91,41 @@ fn a_picture_that_is_missing_or_damaged_is_one_sentence_and_leaves_the_mesh() {
         assert!(about.len() == 1 && about[0].contains(said), "{warnings:?}");
         assert!(world.query::<&TexturedBy>().iter().next().is_none());
     }
+}
+
+#[test]
+fn a_picture_of_opacity_makes_holes_in_that_of_color_and_one_that_is_missing_leaves_it() {
+    let folder = folder();
+    let write = |text: &str| std::fs::write(folder.path().join("a.mtl"), text).unwrap();
+    let grey = [to_linear(0.5), to_linear(0.5), to_linear(0.5), 1.0];
+    let holes = Picture::new([2, 2], vec![[1.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4], grey]).unwrap();
+    write_picture(&folder.path().join("holes.png"), &holes, &[]).unwrap();
+    let alphas = |world: &World| {
+        let TexturedBy { laid, .. } = only(world);
+        let texture = laid.on(1).unwrap().with(Wrap::Clamp, TextureFilter::Nearest);
+        let point = Footprint::new(DVec2::ZERO, DVec2::ZERO);
+        let at = |u, v| texture.filtered(DVec2::new(u, v), &point);
+        let corners = [at(0.2, 0.2), at(0.8, 0.2), at(0.2, 0.8), at(0.8, 0.8)];
+        (texture.size(), corners.map(|texel| (texel.w * 100.0).round() as i32), at(0.2, 0.2))
+    };
+    write("newmtl bark\nmap_Kd bark.png\nmap_d holes.png\n");
+    let Scene { world, warnings, files, .. } = scene(folder.path(), "").unwrap();
+    assert!(!warnings.iter().any(|warning| warning.contains("tree")), "{warnings:?}");
+    assert_eq!(alphas(&world), ([2, 2], [100, 0, 100, 50], glam::Vec4::ONE));
+    assert!(files.contains(&folder.path().join("holes.png")));
+    write("newmtl bark\nKd 1 0 0\nmap_d holes.png\n");
+    let world = scene(folder.path(), "").unwrap().world;
+    assert_eq!(alphas(&world), ([2, 2], [100, 0, 100, 50], glam::Vec4::ONE));
+    assert_eq!(
+        FaceColors::of(Some(&only(&world)), 1).unwrap().0,
+        glam::Vec3::X,
+        "its own color tints it"
+    );
+    write("newmtl bark\nmap_Kd bark.png\nmap_d no.png\n");
+    let Scene { world, warnings, .. } = scene(folder.path(), "").unwrap();
+    assert_eq!(alphas(&world).1, [100; 4]);
+    let about: Vec<_> = warnings.iter().filter(|warning| warning.contains("no.png")).collect();
+    assert!(about.len() == 1 && about[0].contains("not found"), "{warnings:?}");
 }
 
 #[test]

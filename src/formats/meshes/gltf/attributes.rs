@@ -30,8 +30,8 @@ impl Vertices<'_> {
         Ok(Some(own))
     }
 
-    /// Adds their colors, linear: their own times their material's factor; white where neither is stated, which is told.
-    pub fn color(&self, colors: &mut Vec<Color>) -> Result<bool, String> {
+    /// Adds their colors, linear: their own times their material's factor; white where neither is stated.
+    pub fn color(&self, colors: &mut Vec<Color>) -> Result<Colored, String> {
         let looks = self.document.looks(self.primitive);
         let factor = looks.and_then(|looks| looks.pbr.as_ref()?.base_color);
         let tint = factor.unwrap_or([1.0; 4]);
@@ -45,7 +45,11 @@ impl Vertices<'_> {
             Some(own) => colors.extend(own.values.chunks_exact(own.width).map(of)),
             None => colors.extend(std::iter::repeat_n(of(&[1.0; 3]), self.count)),
         }
-        Ok(own.is_some() || factor.is_some())
+        let with_alpha = own.as_ref().filter(|own| own.width == 4);
+        let alphas = with_alpha.map_or_else(Vec::new, |own| {
+            own.values.chunks_exact(4).map(|channels| sound_alpha(channels[3])).collect()
+        });
+        Ok(Colored { is_stated: own.is_some() || factor.is_some(), alphas })
     }
 
     /// Adds their normals, if they have any; those of vertices before them that have none are no numbers.
@@ -74,6 +78,34 @@ impl Vertices<'_> {
         places.extend(own.values.chunks_exact(2).map(|uv| place(uv, moved)));
         Ok(())
     }
+}
+
+/// What is known of the colors of a primitive's vertices.
+#[derive(Default)]
+pub(super) struct Colored {
+    /// Whether the file states any.
+    pub is_stated: bool,
+    /// The alpha of each vertex, 0..=1; empty where they have none.
+    alphas: Vec<f32>,
+}
+
+impl Colored {
+    /// Whether some vertex is less than opaque.
+    pub fn has_alpha(&self) -> bool {
+        self.alphas.iter().any(|&alpha| alpha < 1.0)
+    }
+
+    /// The mean alpha of a triangle's corners, which are numbers of vertices of the primitive; 1 where they have none.
+    pub fn alpha(&self, corners: [u32; 3]) -> f32 {
+        let of = |corner: u32| self.alphas.get(corner as usize).copied().unwrap_or(1.0);
+        let [a, b, c] = corners.map(of);
+        (a + b + c) / 3.0
+    }
+}
+
+/// An alpha within 0..=1; one that is no number is opaque.
+fn sound_alpha(alpha: f64) -> f32 {
+    if alpha.is_nan() { 1.0 } else { alpha.clamp(0.0, 1.0) as f32 }
 }
 
 /// A place in a picture: scaled, turned and moved as `KHR_texture_transform` has it, counter-clockwise where v runs down.

@@ -12,7 +12,7 @@ use crate::components::Wrap;
 use crate::formats::base64::all_decoded;
 
 /// What tells pictures apart: the image, what its alpha does, and how it goes on outside itself.
-type Look = (usize, [u32; 3], Wrap);
+type Look = (usize, [u32; 3], [Wrap; 2]);
 
 /// The pictures of a file that primitives use, each once.
 pub(super) struct BaseColors<'a> {
@@ -37,14 +37,13 @@ impl<'a> BaseColors<'a> {
         Self { document, buffers, path, left: held, pictures, warnings, known }
     }
 
-    /// The number of the picture that is on a primitive, and how opaque it is beside, 0..=1; what cannot be had of a picture is
-    /// said once.
-    pub fn of(&mut self, primitive: &Primitive) -> (Option<u32>, f32) {
-        let Some(looks) = self.document.looks(primitive) else { return (None, 1.0) };
+    /// The number of the picture that is on a primitive, and what alpha does to it; what cannot be had of a picture is said once.
+    pub fn of(&mut self, primitive: &Primitive) -> (Option<u32>, PictureAlpha) {
+        let Some(looks) = self.document.looks(primitive) else {
+            return (None, PictureAlpha::Ignored);
+        };
         let alpha = alpha(looks);
-        let number = self.picture(looks, alpha);
-        // The alpha of a picture has the factor in it.
-        (number, if number.is_some() { 1.0 } else { alpha.alone() })
+        (self.picture(looks, alpha), alpha)
     }
 
     fn picture(&mut self, looks: &SurfaceLooks, alpha: PictureAlpha) -> Option<u32> {
@@ -62,29 +61,22 @@ impl<'a> BaseColors<'a> {
             return *known;
         }
         let added = self.stored(image).and_then(|(name, place)| {
-            add_picture(&mut self.pictures, MeshPicture { name, place, alpha, wrap })
+            add_picture(&mut self.pictures, MeshPicture { name, place, alpha, wrap, veil: None })
         });
         let number = added.map_err(|sentence| say_once(&mut self.warnings, sentence)).ok();
         self.known.insert(look, number);
         number
     }
 
-    /// How a picture goes on outside itself.
-    fn wrap(&mut self, sampler: Option<usize>) -> Wrap {
+    /// How a picture goes on outside itself: to its sides, and above and below.
+    fn wrap(&self, sampler: Option<usize>) -> [Wrap; 2] {
         let outside = sampler.and_then(|at| self.document.samplers.get(at));
         let ways = outside.map_or([None; 2], |outside| [outside.wrap_s, outside.wrap_t]);
-        match ways.map(|way| way.unwrap_or(10497)) {
-            [33071, 33071] => Wrap::Clamp,
-            [10497, 10497] => Wrap::Repeat,
-            [33648, 33648] => Wrap::Mirror,
-            _ => {
-                say_once(
-                    &mut self.warnings,
-                    "some of its pictures go on otherwise to their sides than above and below, which is not read; they repeat",
-                );
-                Wrap::Repeat
-            }
-        }
+        ways.map(|way| match way {
+            Some(33071) => Wrap::Clamp,
+            Some(33648) => Wrap::Mirror,
+            _ => Wrap::Repeat,
+        })
     }
 
     /// What an image is called, and where its bytes are; the error is a sentence about the file.

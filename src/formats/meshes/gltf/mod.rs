@@ -12,10 +12,11 @@ use std::path::Path;
 
 use glam::DMat4;
 
+use super::pictures::{PictureAlpha, say_once};
 use super::triangles::{Triangles, add_fan, add_strip, reserve};
 use crate::components::Space;
 use accessor::{floats, indices};
-use attributes::Vertices;
+use attributes::{Colored, Vertices};
 use base_color::BaseColors;
 use buffers::Buffers;
 use document::{Document, Primitive};
@@ -29,7 +30,7 @@ const MOST_OF_A_BYTE: usize = 16;
 /// Extensions of how pictures are stored and laid that are read.
 const PICTURES: [&str; 2] = ["KHR_texture_transform", "EXT_texture_webp"];
 
-/// Reads the triangles that the file's scene places, in the colors of vertices and of materials, and the pictures on them.
+/// Reads the triangles that the file's scene places, in the colors and as opaque as vertices and materials have them, and the pictures on them.
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
     let (text, own) = buffers::chunks(bytes)?;
     let document: Document = serde_json::from_slice(text)
@@ -50,11 +51,24 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Triangles, String> {
         for primitive in &mesh.primitives {
             match primitive.mode {
                 4..=6 => {
-                    colored |= add(&mut triangles, &document, &buffers, (primitive, matrix))?;
-                    let (number, opacity) = base_colors.of(primitive);
-                    let count = triangles.faces.len();
-                    triangles.pictured.resize(count, number.unwrap_or(u32::MAX));
-                    triangles.opacities.resize(count, opacity);
+                    let before = (triangles.vertices.len() as u32, triangles.faces.len());
+                    let own = add(&mut triangles, &document, &buffers, (primitive, matrix))?;
+                    colored |= own.is_stated;
+                    let (number, look) = base_colors.of(primitive);
+                    if let (PictureAlpha::Cut { .. }, Some(_), true) =
+                        (look, number, own.has_alpha())
+                    {
+                        say_once(
+                            &mut triangles.warnings,
+                            "some of its pictures are cut where the alpha of vertices counts too; pictures are cut by their own, and triangles left out by the mean of their vertices'",
+                        );
+                    }
+                    triangles.pictured.resize(triangles.faces.len(), number.unwrap_or(u32::MAX));
+                    let alphas = triangles.faces[before.1..]
+                        .iter()
+                        .map(|face| own.alpha(face.map(|corner| corner - before.0)));
+                    let seen = alphas.map(|alpha| look.seen(alpha, number.is_some()));
+                    triangles.opacities.extend(seen);
                 }
                 _ => left_out += 1,
             }
@@ -100,14 +114,16 @@ fn refuse(document: &Document) -> Result<(), String> {
     }
 }
 
-/// Adds a primitive's triangles, and whether it states a color.
+/// Adds a primitive's triangles, and tells of the colors of its vertices.
 fn add(
     triangles: &mut Triangles,
     document: &Document,
     buffers: &Buffers,
     (primitive, matrix): (&Primitive, DMat4),
-) -> Result<bool, String> {
-    let Some(&positions) = primitive.attributes.get("POSITION") else { return Ok(false) };
+) -> Result<Colored, String> {
+    let Some(&positions) = primitive.attributes.get("POSITION") else {
+        return Ok(Colored::default());
+    };
     let points = floats(document, buffers, positions)?;
     if points.width != 3 {
         return Err("has positions that are not of three numbers; export it again".to_owned());

@@ -13,7 +13,7 @@ pub(super) struct ObjMaterial {
     /// `map_Kd`: the picture that its color multiplies.
     pub picture: Option<PictureLine>,
     /// `map_d`: the picture of its opacity.
-    pub veil: Option<String>,
+    pub veil: Option<PictureLine>,
     /// `d`, opaque at 1.
     opacity: Option<f64>,
     /// `Tr`, opaque at 0.
@@ -48,6 +48,11 @@ impl PictureLine {
     pub fn moves(&self) -> Option<[[f64; 2]; 2]> {
         Some(self.moved).filter(|moved| *moved != AS_IT_IS)
     }
+
+    /// Whether it lies where another does, and goes on outside itself likewise.
+    pub fn lies_as(&self, other: &Self) -> bool {
+        self.moved == other.moved && self.is_clamped == other.is_clamped
+    }
 }
 
 impl ObjMaterial {
@@ -55,6 +60,22 @@ impl ObjMaterial {
     pub fn opacity(&self) -> f32 {
         let opacity = self.opacity.or(self.transparency.map(|clear| 1.0 - clear));
         opacity.filter(|opacity| opacity.is_finite()).unwrap_or(1.0).clamp(0.0, 1.0) as f32
+    }
+
+    /// Whether all of it is clear by `Tr` alone, which some programs write for what is opaque.
+    pub fn is_clear_by_tr(&self) -> bool {
+        self.opacity.is_none() && self.opacity() <= 0.0
+    }
+
+    /// The picture that says where it lies: that of its color, else that of its opacity.
+    pub fn laid(&self) -> Option<&PictureLine> {
+        self.picture.as_ref().or(self.veil.as_ref())
+    }
+
+    /// The picture of its opacity where that is another than the one of its color, which has one.
+    pub fn veil_apart(&self) -> Option<&PictureLine> {
+        let color = self.picture.as_ref()?;
+        self.veil.as_ref().filter(|veil| veil.name != color.name)
     }
 
     /// The color that its picture is multiplied by: programs that write black beside a picture mean the picture.
@@ -84,7 +105,7 @@ pub(super) fn add_materials(bytes: &[u8], materials: &mut HashMap<String, ObjMat
             "d" => material.opacity = last_number(rest),
             "Tr" => material.transparency = last_number(rest),
             "map_Kd" => material.picture = picture(rest),
-            "map_d" => material.veil = picture(rest).map(|picture| picture.name),
+            "map_d" => material.veil = picture(rest),
             _ => {}
         }
     }

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::super::pictures::{MeshPicture, PictureAlpha, PicturePlace, add_picture, say_once};
 use super::super::triangles::{AtCorners, Triangles, place_upward};
-use super::library::{ObjMaterial, add_materials};
+use super::library::{ObjMaterial, PictureLine, add_materials};
 use crate::components::{Color, Wrap};
 use crate::formats::stream::Stream;
 
@@ -108,16 +108,17 @@ impl MadeOf {
             triangles.opacities = opacities.collect();
         }
         let moves: Vec<_> =
-            used.iter().map(|material| material.as_ref()?.picture.as_ref()?.moves()).collect();
+            used.iter().map(|material| material.as_ref()?.laid()?.moves()).collect();
         move_places(triangles, |at| moves.get(self.of[at] as usize).copied().flatten());
-        let unseen = known().filter(|material| material.opacity() <= 0.0).count();
-        let veiled = known().filter(|material| veil_apart(material)).count();
+        let unseen = || known().filter(|material| material.opacity() <= 0.0);
+        let by_tr = unseen().filter(|material| material.is_clear_by_tr()).count();
+        let by_d = unseen().count() - by_tr;
         let missing = used.len() - known().count();
-        if unseen > 0 {
-            self.warnings.push(format!("{unseen} of its materials are wholly clear (`d` is 0 or `Tr` 1), and what is made of them is not seen; write `d 1` where they are meant to be opaque"));
+        if by_d > 0 {
+            self.warnings.push(format!("{by_d} of its materials are wholly clear (`d` is 0), and what is made of them is not seen; write `d 1` where they are meant to be opaque"));
         }
-        if veiled > 0 {
-            self.warnings.push(format!("{veiled} of its materials are seen through by a picture of their own (`map_d`), which is not read; put it into the alpha of that of `map_Kd`"));
+        if by_tr > 0 {
+            self.warnings.push(format!("{by_tr} of its materials are wholly clear by `Tr 1` without a `d`, and what is made of them is not seen; some programs mean opaque by that: write `d 1` then"));
         }
         if missing > 0 && !self.read.is_empty() {
             self.warnings.push(format!("{missing} of its materials are in no file that it names, and what is made of them is plain; export it again"));
@@ -162,40 +163,52 @@ fn move_places(triangles: &mut Triangles, of: impl Fn(usize) -> Option<[[f64; 2]
     }
 }
 
-/// Whether a material's opacity is a picture other than the alpha of that of its color.
-fn veil_apart(material: &ObjMaterial) -> bool {
-    let own = material.picture.as_ref().map(|picture| &picture.name);
-    material.veil.is_some() && material.veil.as_ref() != own
-}
+/// What tells pictures apart: their names, whether they are clamped, and what alpha does.
+type Look = (String, Option<String>, bool, [u32; 3]);
 
 /// The pictures that materials name, each once.
 struct Pictures<'f> {
     folder: &'f Path,
     all: Vec<MeshPicture>,
-    known: HashMap<(String, bool, bool), u32>,
+    known: HashMap<Look, u32>,
 }
 
 impl Pictures<'_> {
+    /// A picture that a line names, whose alpha does that.
+    fn picture(&self, line: &PictureLine, alpha: PictureAlpha) -> MeshPicture {
+        let wrap = [if line.is_clamped { Wrap::Clamp } else { Wrap::Repeat }; 2];
+        let place = PicturePlace::Beside(beside(self.folder, &line.name));
+        MeshPicture { name: line.name.clone(), place, alpha, wrap, veil: None }
+    }
+
     /// The number of a material's picture, if it names one.
     fn number(&mut self, material: &ObjMaterial, warnings: &mut Vec<String>) -> Option<u32> {
-        let picture = material.picture.as_ref()?;
-        if picture.is_rough {
+        let line = material.laid()?;
+        if line.is_rough {
             say_once(
                 warnings,
-                "it makes pictures rough by turbulence (`-t` of `map_Kd`), which is not read; they lie where its `vt`, `-s` and `-o` say",
+                "it makes pictures rough by turbulence (`-t`), which is not read; they lie where its `vt`, `-s` and `-o` say",
             );
         }
-        let is_veil = material.veil.as_ref() == Some(&picture.name);
-        let key = (picture.name.clone(), picture.is_clamped, is_veil);
+        let veil = material.veil_apart();
+        if veil.is_some_and(|veil| !veil.lies_as(line)) {
+            say_once(
+                warnings,
+                "it lays pictures of opacity (`map_d`) otherwise than those of color beside them, which is not read; they lie as those of `map_Kd`",
+            );
+        }
+        let alpha = match (&material.picture, &material.veil) {
+            (None, _) => PictureAlpha::Veil,
+            (Some(_), Some(_)) if veil.is_none() => PictureAlpha::Opacity(1.0),
+            (Some(_), _) => PictureAlpha::Ignored,
+        };
+        let name_of = |line: &PictureLine| line.name.clone();
+        let key = (name_of(line), veil.map(name_of), line.is_clamped, alpha.key());
         if let Some(&number) = self.known.get(&key) {
             return Some(number);
         }
-        let added = MeshPicture {
-            name: picture.name.clone(),
-            place: PicturePlace::Beside(beside(self.folder, &picture.name)),
-            alpha: if is_veil { PictureAlpha::Opacity(1.0) } else { PictureAlpha::Ignored },
-            wrap: if picture.is_clamped { Wrap::Clamp } else { Wrap::Repeat },
-        };
+        let veil = veil.map(|veil| Box::new(self.picture(veil, PictureAlpha::Veil)));
+        let added = MeshPicture { veil, ..self.picture(line, alpha) };
         let number = add_picture(&mut self.all, added).map_err(|said| say_once(warnings, said));
         self.known.insert(key, number.ok()?);
         number.ok()

@@ -72,9 +72,16 @@ fn each_primitive_has_the_picture_of_its_material() {
     assert!(mesh.warnings.is_empty(), "{:?}", mesh.warnings);
     assert_eq!([mesh.picture(0), mesh.picture(1), mesh.picture(2)], [Some(0), Some(1), None]);
     assert!((red(&mesh, 0) - 1.0).abs() < 1e-6 && (red(&mesh, 1) - 0.25).abs() < 2e-3);
-    assert_eq!([mesh.pictures[0].wrap, mesh.pictures[1].wrap], [Wrap::Repeat, Wrap::Clamp]);
+    assert_eq!(
+        [mesh.pictures[0].wrap, mesh.pictures[1].wrap],
+        [[Wrap::Repeat; 2], [Wrap::Clamp; 2]]
+    );
     let mirrored = looks("", USES_IT_TOO).replace("33071", "33648");
-    assert_eq!(read("a.glb", &glb(&mirrored)).unwrap().pictures[1].wrap, Wrap::Mirror);
+    assert_eq!(read("a.glb", &glb(&mirrored)).unwrap().pictures[1].wrap, [Wrap::Mirror; 2]);
+    let unlike = looks("", USES_IT_TOO).replace("33071,", "33648,");
+    let unlike = read("a.glb", &glb(&unlike)).unwrap();
+    assert!(unlike.warnings.is_empty(), "{:?}", unlike.warnings);
+    assert_eq!(unlike.pictures[1].wrap, [Wrap::Mirror, Wrap::Clamp]);
     assert_eq!(mesh.pictures[0].weighed().unwrap().0, [1, 1]);
     assert!(mesh.colors.is_empty(), "no factor is stated");
 }
@@ -131,7 +138,6 @@ fn what_cannot_be_had_of_a_picture_is_a_sentence_and_leaves_the_triangles() {
         (other(images, r#""name":"bark""#), "picture bark is nowhere"),
         (other(r#""source":0"#, r#""source":5"#), "names picture 5"),
         (other(r#"{"source":0}"#, "{}"), "no format that is read"),
-        (other("33071,", "33648,"), "otherwise to their sides"),
     ] {
         let mesh = read("a.glb", &glb(&looks)).unwrap();
         assert_eq!(mesh.faces.len(), 2);
@@ -203,11 +209,13 @@ fn what_an_obj_names_and_is_not_there_or_not_read_is_one_sentence_each() {
     assert!(missing.len() == 1 && missing[0].contains("no.mtl is not there"), "{missing:?}");
     let unknown = said(OBJ, Some("newmtl bark\nKd 1 1 1\n"));
     assert!(unknown.len() == 1 && unknown[0].contains("1 of its materials are in no file"));
-    let clear = "newmtl bark\nd 0\nnewmtl dark red\nmap_d a.png\nmap_Kd -t 2 2 b.png\n";
+    let clear =
+        "newmtl bark\nd 0\nnewmtl dark red\nTr 1\nmap_d -s 2 2 a.png\nmap_Kd -t 2 2 b.png\n";
     let clear = said(OBJ, Some(clear));
-    assert!(clear.len() == 3, "{clear:?}");
-    assert!(clear[0].contains("turbulence") && clear[1].contains("1 of its materials are wholly"));
-    assert!(clear[2].contains("1 of its materials are seen through by a picture"));
+    assert!(clear.len() == 4, "{clear:?}");
+    assert!(clear[0].contains("turbulence") && clear[1].contains("as those of `map_Kd`"));
+    assert!(clear[2].contains("1 of its materials are wholly clear (`d` is 0)"));
+    assert!(clear[3].contains("clear by `Tr 1` without a `d`") && clear[3].contains("write `d 1`"));
     let many: Vec<_> = (0..70).map(|at| format!("mtllib {at}.mtl\n")).collect();
     let many = said(&(many.concat() + OBJ), Some(""));
     assert!(many.iter().any(|warning| warning.contains("more than 64")), "{many:?}");
