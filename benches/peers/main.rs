@@ -222,6 +222,7 @@ fn main() {
         ours("gelray, every second pixel", &painted, folder, every(8)),
         ours("gelray, adaptive", &painted, folder, |_| ()),
         ours("gelray, four rays a voxel", &painted, folder, per_voxel(4.0)),
+        ours("gelray, three rays a voxel", &painted, folder, per_voxel(3.0)),
         ours("gelray, two rays a voxel", &painted, folder, per_voxel(2.0)),
         ours("gelray, a ray a voxel", &painted, folder, per_voxel(1.0)),
         ours("gelray, a ray for two voxels", &painted, folder, per_voxel(0.5)),

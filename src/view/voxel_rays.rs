@@ -11,6 +11,8 @@ pub struct VoxelRays {
     pub colors: Vec<[f32; 4]>,
     /// Of each row: the first ray that met anything, and one past the last; none met anything where they are equal.
     pub met: Vec<[u32; 2]>,
+    /// By how much the brightest ray is above its opacity, and 0 if none is: above 0 by strong lights.
+    pub excess: f32,
     /// Where they are in the picture.
     pub places: LatticePlaces,
 }

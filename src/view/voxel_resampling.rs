@@ -187,7 +187,7 @@ mod tests {
         let colors = (0..40 * 30).map(color).collect();
         let places =
             LatticePlaces::of(|window| DVec2::new(4.0 + apart * window.x, 3.0 + apart * window.y));
-        VoxelRays { size: [40, 30], colors, met: vec![[0, 40]; 30], places }
+        VoxelRays { size: [40, 30], colors, met: vec![[0, 40]; 30], excess: 0.0, places }
     }
 
     #[test]
@@ -224,7 +224,7 @@ mod tests {
         let colors = (0..size[0] * size[1]).map(color).collect();
         let first = if below < 0.0 { size[1] as f64 - 3.0 } else { 1.7 };
         let place = |at: DVec2| DVec2::new(2.3 + 0.43 * at.x, first + aside * at.x + below * at.y);
-        VoxelRays { size, colors, met, places: LatticePlaces::of(place) }
+        VoxelRays { size, colors, met, excess: 0.0, places: LatticePlaces::of(place) }
     }
 
     #[test]

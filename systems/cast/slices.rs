@@ -122,12 +122,13 @@ impl<T: Texel> Sought<'_, T> {
             watch.advance();
             Ok(done)
         };
-        let done: Vec<Counts> = bands.enumerate().map(band).collect::<Result<_, Error>>()?;
-        let mut counts = Counts::default();
-        for of_band in done {
+        let done: Vec<(Counts, f32)> = bands.enumerate().map(band).collect::<Result<_, Error>>()?;
+        let (mut counts, mut excess) = (Counts::default(), 0.0_f32);
+        for (of_band, of_brightest) in done {
             counts += of_band;
+            excess = excess.max(of_brightest);
         }
-        Ok((VoxelRays { size, colors, met, places: shear.places }, counts))
+        Ok((VoxelRays { size, colors, met, excess, places: shear.places }, counts))
     }
 
     /// The bricks that have cells to be sampled.
@@ -140,8 +141,9 @@ impl<T: Texel> Sought<'_, T> {
         })
     }
 
-    /// The rays from row `top` of a phase on, tile by tile, written to their rows of colors and of columns that met anything.
-    fn band(&self, top: usize, (rows, met): Rows<'_>, occupied: &Occupied) -> Counts {
+    /// The rays from row `top` of a phase on, tile by tile, written to their rows of colors and of columns that met anything;
+    /// by how much the brightest is above its opacity.
+    fn band(&self, top: usize, (rows, met): Rows<'_>, occupied: &Occupied) -> (Counts, f32) {
         let shear = self.shear;
         let [across, parts] = [shear.rays()[0], shear.parts[0]];
         let high = met.len() / shear.parts[1];
@@ -154,7 +156,7 @@ impl<T: Texel> Sought<'_, T> {
             ratio: self.ratio,
         };
         let mut tiles: Vec<Tile> = shear.phases.iter().map(|_| Tile::default()).collect();
-        let (mut counts, level) = (Counts::default(), self.level);
+        let (mut counts, mut excess, level) = (Counts::default(), 0.0_f32, self.level);
         for left in (0..shear.count[0]).step_by(WIDE) {
             let size = [WIDE.min(shear.count[0] - left), high];
             let [u, v] = [left, top * shear.apart].map(|n| n as i64);
@@ -168,18 +170,19 @@ impl<T: Texel> Sought<'_, T> {
                 let (a, b) = (number % parts, number / parts);
                 for j in 0..high {
                     let row = j * shear.parts[1] + b;
-                    let (written, met) = (&mut rows[row * across..][..across], &mut met[row]);
-                    for (i, color) in tile.colors(j, size[0], self.stop).enumerate() {
-                        if let Some(color) = color {
-                            let column = (left + i) * parts + a;
-                            written[column] = color;
-                            *met = widened(*met, column as u32);
+                    let written = &mut rows[row * across..][left * parts + a..across];
+                    let (columns, most) =
+                        dispatch!(level, simd => tile.write(simd, j, self.stop, (written, parts)));
+                    if columns[0] < columns[1] {
+                        for column in [columns[0], columns[1] - 1] {
+                            met[row] = widened(met[row], ((left + column) * parts + a) as u32);
                         }
+                        excess = excess.max(most);
                     }
                 }
             }
         }
-        counts
+        (counts, excess)
     }
 }
 

@@ -31,7 +31,7 @@ impl MetRays {
             let to = rows().map(|row| i64::from(row[1]) + 1).max().unwrap_or(0);
             [from.max(1), to.min(most)]
         };
-        Self { bounds, near: (0..rays.met.len()).map(near).collect(), excess: excess(rays) }
+        Self { bounds, near: (0..rays.met.len()).map(near).collect(), excess: rays.excess }
     }
 
     /// The pixels `[from, to)` of a row, of which the first lies at `start`, outside which nothing that rays met is near.
@@ -51,19 +51,4 @@ impl MetRays {
         }
         if from < to { [from as usize, (to as usize).min(width)] } else { [0, 0] }
     }
-}
-
-/// By how much the brightest color is above its opacity, and 0 if none is.
-fn excess(rays: &VoxelRays) -> f32 {
-    // Of every eighth the greatest, so that none waits for the one before.
-    let mut most = [0.0_f32; 8];
-    for (row, [from, to]) in rays.colors.chunks(rays.size[0].max(1)).zip(&rays.met) {
-        for eight in row[*from as usize..*to as usize].chunks(most.len()) {
-            for (most, [r, g, b, alpha]) in most.iter_mut().zip(eight) {
-                let brighter = r.max(*g).max(*b) - alpha;
-                *most = if brighter > *most { brighter } else { *most };
-            }
-        }
-    }
-    most.into_iter().fold(0.0, f32::max)
 }

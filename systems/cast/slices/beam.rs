@@ -95,35 +95,35 @@ impl<T: Texel> Beam<'_, T> {
         let inside =
             [(0, u), (1, v)].map(|(axis, at)| (size[axis] - 1).saturating_sub(CELLS * at as usize));
         let inside = within(inside);
-        let mut cells = None;
-        for (tile, slices) in tiles.iter_mut().zip(phases) {
-            if tile.open_in(rows) & columns == 0 {
+        let brick = Brick {
+            texels,
+            cells: match axes[2] {
+                2 => turned::<2>(words),
+                1 => turned::<1>(words),
+                _ => turned::<0>(words),
+            }
+            .map(|word| word & inside),
+            first: [CELLS as i64 * u - first[0], CELLS as i64 * v - first[1]],
+            apart: self.shear.apart,
+            is_parted: inside != u64::MAX || self.shear.apart > 1,
+            scale: self.texels.scale(),
+            stop: self.stop,
+            ratio: self.ratio,
+        };
+        let (mut tiles, mut phases) = (tiles, &phases[..]);
+        while !tiles.is_empty() {
+            let together = [8, 4, 2, 1].into_iter().find(|n| *n <= tiles.len()).unwrap_or(1);
+            let (some, more) = tiles.split_at_mut(together);
+            let (of_some, of_more) = phases.split_at(together);
+            (tiles, phases) = (more, of_more);
+            if some.iter().all(|tile| tile.open_in(rows) & columns == 0) {
                 continue;
             }
-            let cells = cells.get_or_insert_with(|| {
-                match axes[2] {
-                    2 => turned::<2>(words),
-                    1 => turned::<1>(words),
-                    _ => turned::<0>(words),
-                }
-                .map(|word| word & inside)
-            });
-            tile.meet();
-            let brick = Brick {
-                texels,
-                cells,
-                first: [CELLS as i64 * u - first[0], CELLS as i64 * v - first[1]],
-                apart: self.shear.apart,
-                is_last: inside != u64::MAX,
-                scale: self.texels.scale(),
-                stop: self.stop,
-                ratio: self.ratio,
-            };
-            let slices = &slices[layer.slices.clone()];
+            let slices = (of_some, &layer.slices);
             match axes[2] {
-                2 => brick.pass::<S, 2>(simd, slices, tile, counts),
-                1 => brick.pass::<S, 1>(simd, slices, tile, counts),
-                _ => brick.pass::<S, 0>(simd, slices, tile, counts),
+                2 => brick.pass::<S, 2>(simd, some, slices, counts),
+                1 => brick.pass::<S, 1>(simd, some, slices, counts),
+                _ => brick.pass::<S, 0>(simd, some, slices, counts),
             }
         }
     }

@@ -4,6 +4,8 @@
 //! added to, so that no bit depends on which set it is.
 #![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
 
+use std::ops::Range;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, u64x8};
 use glam::Vec4;
@@ -34,17 +36,27 @@ static HERE: [[[f32; 4]; 4]; 16] = {
     here
 };
 
+/// Of some slices: cells that are neither empty nor hidden from the rays of a phase, where these are in its tile, and what
+/// each of the four voxels around them counts.
+#[derive(Clone, Copy, Default)]
+struct Found {
+    cells: [u64; TOGETHER],
+    /// The first ray of each slice's [`Window`].
+    rays: [u16; TOGETHER],
+    weights: [[f32; 4]; TOGETHER],
+}
+
 /// A brick that rays of a tile meet.
 pub(super) struct Brick<'a, T> {
     pub texels: &'a [T; TEXELS],
     /// Which cells of its slices are not empty: bit `8 v + u`.
-    pub cells: &'a [u64; CELLS],
+    pub cells: [u64; CELLS],
     /// Its first cell, counted along u and v from the tile's first ray as if that leaned nowhere.
     pub first: [i64; 2],
     /// Voxels between rows of rays.
     pub apart: usize,
-    /// Whether some of its cells lie beyond the last voxels.
-    pub is_last: bool,
+    /// Whether some of its cells have no rays, though they may have gel: beyond the last voxels, or between rows of rays.
+    pub is_parted: bool,
     /// What texels are multiplied by.
     pub scale: Vec4,
     /// A ray stops when no more than this comes through of what is behind.
@@ -54,38 +66,95 @@ pub(super) struct Brick<'a, T> {
 }
 
 impl<T: Texel> Brick<'_, T> {
-    /// Takes the rays of a tile through its slices, the nearest first, which lie across axis `W`.
+    /// Takes the rays of one, two, four or eight tiles, a phase each, through the slices `within` a layer of bricks.
     #[inline(always)]
     pub fn pass<S: Simd, const W: usize>(
         &self,
         simd: S,
-        slices: &[Slice],
-        tile: &mut Tile,
+        tiles: &mut [Tile],
+        (phases, within): (&[Vec<Slice>], &Range<usize>),
         counts: &mut Counts,
     ) {
-        for slices in slices.chunks(TOGETHER) {
+        for tile in &mut *tiles {
+            tile.meet();
+        }
+        let slices = |phase: usize| phases.get(phase).map_or(&[][..], |of| &of[within.clone()]);
+        if let Ok(tiles) = tiles.try_into() {
+            let [a, b, c, d] = [slices(0), slices(1), slices(2), slices(3)];
+            let slices = [a, b, c, d, slices(4), slices(5), slices(6), slices(7)];
+            self.together::<S, W, 8>(simd, tiles, slices, counts);
+        } else if let Ok(tiles) = tiles.try_into() {
+            let slices = [slices(0), slices(1), slices(2), slices(3)];
+            self.together::<S, W, 4>(simd, tiles, slices, counts);
+        } else if let Ok(tiles) = tiles.try_into() {
+            self.together::<S, W, 2>(simd, tiles, [slices(0), slices(1)], counts);
+        } else if let Ok(tiles) = tiles.try_into() {
+            self.together::<S, W, 1>(simd, tiles, [slices(0)], counts);
+        }
+    }
+
+    /// Takes the rays of tiles, a phase each, through their slices, the nearest first, which lie across axis `W`.
+    ///
+    /// The slices of all phases lie on the same planes: what is there between two planes of voxels is found once for all.
+    #[inline(always)]
+    fn together<S: Simd, const W: usize, const P: usize>(
+        &self,
+        simd: S,
+        tiles: &mut [Tile; P],
+        slices: [&[Slice]; P],
+        counts: &mut Counts,
+    ) {
+        for first in (0..slices[0].len()).step_by(TOGETHER) {
             // What is hidden or empty is found of all at first: a branch for each would be a guess.
-            let (mut found, mut windows) = ([0; TOGETHER], [Window::default(); TOGETHER]);
-            for (n, slice) in slices.iter().enumerate() {
-                let cells = self.cells[slice.cell as usize % CELLS];
-                if let Some(window) = self.window(slice) {
-                    found[n] = cells & tile.left(simd, window);
-                    windows[n] = window;
+            let (mut found, mut any) = ([Found::default(); P], [0; TOGETHER]);
+            for phase in 0..P {
+                let found = &mut found[phase];
+                for (n, slice) in slices[phase][first..].iter().take(TOGETHER).enumerate() {
+                    let cells = self.cells[slice.cell as usize % CELLS];
+                    if let Some(window) = self.window(slice) {
+                        let cells = cells & tiles[phase].left(simd, window);
+                        (found.cells[n], found.rays[n]) = (cells, window.first);
+                        found.weights[n] = slice.weights;
+                        any[n] |= cells;
+                    }
                 }
             }
-            for (n, mut fours) in fours(simd, &found).into_iter().enumerate() {
+            for (n, mut fours) in fours(simd, &any).into_iter().enumerate() {
                 while fours != 0 {
                     let bit = fours.trailing_zeros() as usize;
                     fours &= fours - 1;
-                    let (n, four) = (4 * n + bit / 16, bit % 16);
-                    let Some(slice) = slices.get(n) else { continue };
+                    let (n, four) = ((4 * n + bit / 16) % TOGETHER, bit % 16);
+                    let Some(slice) = slices[0].get(first + n) else { continue };
                     let at = [4 * (four % 2), four / 2];
-                    let Some(mut rays) = tile.four(windows[n], at) else { continue };
-                    let here = found[n] >> (4 * four) & rays.left();
-                    if here != 0 {
-                        counts.samples += u64::from(here.count_ones());
-                        let slabs = self.slabs::<S, W>(simd, at, (slice, here));
-                        rays.under(simd, slabs, self.stop);
+                    let way = Tile::way(at, self.apart);
+                    let (mut rays, mut here, mut any) = ([0; P], [0; P], 0);
+                    for phase in 0..P {
+                        rays[phase] = usize::from(found[phase].rays[n]) + way;
+                        let left = tiles[phase].four(rays[phase]);
+                        here[phase] = found[phase].cells[n] >> (4 * four) & left;
+                        any |= here[phase];
+                        counts.samples += u64::from(here[phase].count_ones());
+                    }
+                    if any == 0 {
+                        continue;
+                    }
+                    let corners = self.corners::<S, W>(simd, at, slice);
+                    let mut slabs = [f32x16::splat(simd, 0.0); P];
+                    for phase in 0..P {
+                        slabs[phase] = between(corners, &found[phase].weights[n]);
+                    }
+                    let slabs = self.slabs(simd, slabs, here);
+                    let mut told = [0; 2];
+                    for phase in 0..P {
+                        let stopped =
+                            tiles[phase].under(simd, rays[phase], slabs[phase], self.stop);
+                        told[phase / 4] |= stopped << (16 * (phase % 4));
+                    }
+                    // Without a branch: whether a ray stops is no guess, and is known late.
+                    let stopped = [Tile::stopped(told[0]), Tile::stopped(told[1])];
+                    for phase in 0..P {
+                        let stopped = stopped[phase / 4] >> (16 * (phase % 4)) & 0xf;
+                        tiles[phase].stop(rays[phase], stopped);
                     }
                 }
             }
@@ -99,25 +168,26 @@ impl<T: Texel> Brick<'_, T> {
         Window::new([u, v], self.apart)
     }
 
-    /// The slabs of four rays on a slice, the first in the cell `[u, v]` of it: associated colour and, below 0, opacity. Of
-    /// those that are not `here` they are clear, for their cells are, or lie beyond the last voxels.
+    /// What is on a slice at the corners of the cells of four rays, the first in the cell `[u, v]` of it, u fastest:
+    /// associated colour and, below 0, opacity.
     #[inline(always)]
-    fn slabs<S: Simd, const W: usize>(
+    fn corners<S: Simd, const W: usize>(
         &self,
         simd: S,
         [u, v]: [usize; 2],
-        (slice, here): (&Slice, u64),
-    ) -> f32x16<S> {
+        slice: &Slice,
+    ) -> [f32x16<S>; 4] {
         let layer = slice.cell as usize % CELLS;
-        let corners = match W {
+        let texels = match W {
             2 => self.along::<S, W>(simd, layer * ROW * ROW + v * ROW + u),
             1 => self.along::<S, W>(simd, layer * ROW + v * ROW * ROW + u),
             _ => self.across(simd, layer + v * ROW * ROW + u * ROW),
         };
-        match corners {
-            Some(corners) => self.between(simd, corners, (&slice.weights, here)),
-            None => f32x16::splat(simd, 0.0),
-        }
+        let Some([a, b, c, d, e, f, g, h]) = texels else { return [f32x16::splat(simd, 0.0); 4] };
+        let scale = [self.scale.x, self.scale.y, self.scale.z, -self.scale.w];
+        let scale = f32x16::from_slice(simd, [scale; 4].as_flattened());
+        let [near, far] = [scale * slice.planes[0], scale * slice.planes[1]];
+        [a * near + e * far, b * near + f * far, c * near + g * far, d * near + h * far]
     }
 
     /// The texels around four rays, u fastest, of a brick whose rows of texels lie along u, from its texel `first` on.
@@ -149,23 +219,26 @@ impl<T: Texel> Brick<'_, T> {
         Some([a, b, c, d, four!(1), four!(u + 1), four!(v + 1), four!(u + v + 1)])
     }
 
-    /// The slabs of four rays between the texels around them.
+    /// The slabs of four rays of each phase: clear where a ray is not `here`, for its cell is, or lies beyond the last voxels.
     #[inline(always)]
-    fn between<S: Simd>(
+    fn slabs<S: Simd, const P: usize>(
         &self,
         simd: S,
-        [a, b, c, d, e, f, g, h]: [f32x16<S>; 8],
-        (weights, here): (&[f32; 8], u64),
-    ) -> f32x16<S> {
-        let near = a * weights[0] + b * weights[1] + (c * weights[2] + d * weights[3]);
-        let far = e * weights[4] + f * weights[5] + (g * weights[6] + h * weights[7]);
-        let scale = [self.scale.x, self.scale.y, self.scale.z, -self.scale.w];
-        let mut slabs = (near + far) * f32x16::from_slice(simd, [scale; 4].as_flattened());
-        if self.is_last {
-            let here = HERE[here as usize & 0xf].as_flattened();
-            slabs *= f32x16::from_slice(simd, here);
+        mut slabs: [f32x16<S>; P],
+        here: [u64; P],
+    ) -> [f32x16<S>; P] {
+        if self.is_parted {
+            for phase in 0..P {
+                let here = HERE[here[phase] as usize & 0xf].as_flattened();
+                slabs[phase] *= f32x16::from_slice(simd, here);
+            }
         }
-        if self.ratio == 1.0 { slabs } else { self.thickened(simd, slabs) }
+        if self.ratio != 1.0 {
+            for slabs in &mut slabs {
+                *slabs = self.thickened(simd, *slabs);
+            }
+        }
+        slabs
     }
 
     /// Slabs of another thickness than the opacity unit (equations 2a and 2b).
@@ -191,6 +264,12 @@ impl<T: Texel> Brick<'_, T> {
         }
         slabs * f32x16::from_slice(simd, parts.as_flattened())
     }
+}
+
+/// What is between the corners of the cells of four rays.
+#[inline(always)]
+fn between<S: Simd>([a, b, c, d]: [f32x16<S>; 4], weights: &[f32; 4]) -> f32x16<S> {
+    a * weights[0] + b * weights[1] + (c * weights[2] + d * weights[3])
 }
 
 /// Which fours of the bits of each word have any set: 16 bits a word, four words in one.

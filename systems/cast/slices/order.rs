@@ -29,8 +29,9 @@ impl Layer {
         let end = first + more.count();
         let ends = [slices[first].shift, slices[end - 1].shift];
         let least = [0, 1].map(|axis| ends[0][axis].min(ends[1][axis]));
-        // Rays of other phases may be one cell further.
-        let other = shear.parts.map(|parts| i64::from(parts > 1));
+        // Rays of other phases may be as many cells further as those of one are apart.
+        let apart = [1, shear.apart as i64];
+        let other = [0, 1].map(|axis| if shear.parts[axis] > 1 { apart[axis] } else { 0 });
         let most = [0, 1].map(|axis| ends[0][axis].max(ends[1][axis]) + other[axis]);
         Self { number, slices: first..end, least, most }
     }

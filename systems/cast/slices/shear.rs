@@ -23,7 +23,7 @@ pub(super) struct Shear {
     pub axes: [usize; 3],
     /// The lattice's phases along u and v.
     pub parts: [usize; 2],
-    /// Voxels between rows of rays along v: 2 where every second is left out, and 1 elsewhere.
+    /// Voxels between rows of a phase's rays along v: 1, or 2 where `parts` rows lie on each two voxels.
     pub apart: usize,
     /// The least whole U and V of rays.
     pub first: [i64; 2],
@@ -46,8 +46,10 @@ pub(super) struct Slice {
     pub cell: i64,
     /// Rays are in the cells of u = U + shift, and so along v.
     pub shift: [i64; 2],
-    /// Of the eight voxels around each ray, u fastest; they sum to 1.
-    pub weights: [f32; 8],
+    /// Of the four voxels around each ray on a plane of voxels, u fastest; they sum to 1.
+    pub weights: [f32; 4],
+    /// How much the two planes of voxels count, the one before and the one after; they sum to 1.
+    pub planes: [f32; 2],
 }
 
 impl Shear {
@@ -100,7 +102,7 @@ impl Shear {
             count: reached.map(|(_, count)| count),
             size,
             ahead: [0, 1].map(|axis| step[axes[axis]] > 0.0),
-            phases: phases(&planes, parts, (slope, middle)),
+            phases: phases(&planes, (parts, apart), (slope, middle)),
             places: LatticePlaces::of(|window| (lattice(window) - from) * DVec2::from(parts_of)),
         })
     }
@@ -136,7 +138,8 @@ fn planes(last: f64, step: f64) -> Option<Vec<f64>> {
 fn rays_of_a_voxel(wanted: [f64; 2]) -> ([usize; 2], usize) {
     let wanted = wanted.map(|rays| rays.min(MOST_PARTS as f64));
     let several = (1..=MOST_PARTS).flat_map(|u| (1..=MOST_PARTS).map(move |v| ([u, v], 1)));
-    let all = several.chain((1..=MOST_PARTS).map(|u| ([u, 1], 2)));
+    let odd = (1..=MOST_PARTS).step_by(2);
+    let all = several.chain((1..=MOST_PARTS).flat_map(|u| odd.clone().map(move |v| ([u, v], 2))));
     let off = |&([u, v], apart): &([usize; 2], usize)| {
         let more = [u as f64 / wanted[0], v as f64 / apart as f64 / wanted[1]].map(f64::ln);
         // To a millionth: what differs by rounding is alike.
@@ -156,13 +159,18 @@ fn reached((last, lean): (f64, f64), [least, most]: [f64; 2], step: usize) -> (i
 }
 
 /// The planes as each phase passes them.
-fn phases(planes: &[f64], parts: [usize; 2], (slope, middle): ([f64; 2], f64)) -> Vec<Vec<Slice>> {
+fn phases(
+    planes: &[f64],
+    (parts, apart): ([usize; 2], usize),
+    (slope, middle): ([f64; 2], f64),
+) -> Vec<Vec<Slice>> {
     let of = |phase: DVec2| {
         let from = |plane: f64| phase + (plane - middle) * DVec2::from(slope);
         planes.iter().map(|&plane| slice(plane, from(plane))).collect()
     };
     let row = |b: usize| {
-        let part = move |a: usize| [a as f64 / parts[0] as f64, b as f64 / parts[1] as f64];
+        let along = (b * apart) as f64 / parts[1] as f64;
+        let part = move |a: usize| [a as f64 / parts[0] as f64, along];
         (0..parts[0]).map(move |a| DVec2::from(part(a)))
     };
     (0..parts[1]).flat_map(row).map(of).collect()
@@ -176,10 +184,10 @@ fn slice(w: f64, from: DVec2) -> Slice {
     let near = 1.0 - far;
     let weight = |n: usize| {
         let side = |axis: usize| if n >> axis & 1 == 1 { far[axis] } else { near[axis] };
-        side(0) * side(1) * side(2)
+        side(0) * side(1)
     };
-    let shift = [cell.x as i64, cell.y as i64];
-    Slice { cell: cell.z as i64, shift, weights: std::array::from_fn(weight) }
+    let (shift, planes) = ([cell.x as i64, cell.y as i64], [near.z, far.z]);
+    Slice { cell: cell.z as i64, shift, weights: std::array::from_fn(weight), planes }
 }
 
 #[cfg(test)]
@@ -191,8 +199,9 @@ mod tests {
         let slice = slice(3.25, DVec2::new(-1.5, 2.75));
         assert_eq!((slice.cell, slice.shift), (3, [-2, 2]));
         assert!((slice.weights.iter().sum::<f32>() - 1.0).abs() < 1e-6);
-        assert!((slice.weights[0] - 0.5 * 0.25 * 0.75).abs() < 1e-6);
-        assert!((slice.weights[7] - 0.5 * 0.75 * 0.25).abs() < 1e-6);
+        assert!((slice.weights[0] - 0.5 * 0.25).abs() < 1e-6);
+        assert!((slice.weights[3] - 0.5 * 0.75).abs() < 1e-6);
+        assert_eq!(slice.planes, [0.75, 0.25]);
     }
 
     #[test]

@@ -3,9 +3,7 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, u8x64, u64x8};
-use glam::Vec3;
 
-use crate::view::composite::Gathered;
 use crate::view::four_colors::fourth;
 
 /// Rays across a tile; with eight more on either side their bits are a word.
@@ -20,12 +18,12 @@ const PITCH: usize = WIDE + 2 * BEFORE;
 pub(super) const SIDE: usize = 8;
 
 /// Bytes of a tile.
-pub(super) const BYTES: usize = HIGH * PITCH * size_of::<[f32; 4]>();
+pub(super) const BYTES: usize = (HIGH + 2 * BEFORE) * PITCH * size_of::<[f32; 4]>();
 
 /// Rays, a row after the other.
 #[derive(Clone)]
 pub(super) struct Tile {
-    /// Associated colour and what still comes through of what is behind; 0 beside the tile.
+    /// Associated colour and what still comes through of what is behind; 0 beside the tile, where nothing is gathered.
     gathered: Vec<[[f32; 4]; PITCH]>,
     /// Bits of the rays that have not stopped, row by row.
     open: [u64; HIGH + 2 * BEFORE],
@@ -35,7 +33,7 @@ pub(super) struct Tile {
 
 impl Default for Tile {
     fn default() -> Self {
-        let gathered = vec![[[0.0; 4]; PITCH]; HIGH];
+        let gathered = vec![[[0.0; 4]; PITCH]; HIGH + 2 * BEFORE];
         Self { gathered, open: [0; HIGH + 2 * BEFORE], size: [0; 2], is_met: false }
     }
 }
@@ -43,9 +41,8 @@ impl Default for Tile {
 /// Where the rays of a slice of a brick are in a tile, which some may be beside.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Window {
-    /// Of the first, counted from [`BEFORE`] the tile.
-    column: u8,
-    row: u8,
+    /// The first, counted along rows from [`BEFORE`] the tile.
+    pub first: u16,
     /// Which rows of cells have rays: all, or every second from the first or the second on.
     rows: u8,
 }
@@ -59,8 +56,9 @@ impl Window {
         let row = if apart == 2 { (v + odd) >> 1 } else { v };
         let side = SIDE as i64;
         let inside = (1 - side..WIDE as i64).contains(&u) && (1 - side..HIGH as i64).contains(&row);
-        let [column, row] = [u, row].map(|n| (n + BEFORE as i64) as u8);
-        inside.then_some(Self { column, row, rows: (apart as i64 - 1 + odd) as u8 })
+        let [column, row] = [u, row].map(|n| n + BEFORE as i64);
+        let first = (row * PITCH as i64 + column) as u16;
+        inside.then_some(Self { first, rows: (apart as i64 - 1 + odd) as u8 })
     }
 }
 
@@ -82,7 +80,7 @@ impl Tile {
     pub fn meet(&mut self) {
         if !self.is_met {
             self.is_met = true;
-            for row in &mut self.gathered {
+            for row in &mut self.gathered[BEFORE..BEFORE + HIGH] {
                 *row = [[0.0; 4]; PITCH];
                 row[BEFORE..][..self.size[0]].fill([0.0, 0.0, 0.0, 1.0]);
             }
@@ -105,42 +103,111 @@ impl Tile {
     /// In which cells of a slice a ray has not stopped: bit `8 v + u`.
     #[inline(always)]
     pub fn left<S: Simd>(&self, simd: S, at: Window) -> u64 {
-        let first = usize::from(at.row);
-        let Some(rows) = self.open.get(first..).and_then(<[u64]>::first_chunk::<SIDE>) else {
+        let (row, column) = (usize::from(at.first) / PITCH, u32::from(at.first) % PITCH as u32);
+        let Some(rows) = self.open.get(row..).and_then(<[u64]>::first_chunk::<SIDE>) else {
             return 0;
         };
         let (bytes, cells) = &ROWS[usize::from(at.rows) % ROWS.len()];
-        let rows = u64x8::from_slice(simd, rows) >> u32::from(at.column);
+        let rows = u64x8::from_slice(simd, rows) >> column;
         let rows: u8x64<S> = rows.bitcast();
         let rows: u64x8<S> = rows.swizzle_dyn(u8x64::from_slice(simd, bytes)).bitcast();
         rows.as_slice()[0] & cells
     }
 
-    /// The rays of a slice in the cell `[u, v]` and three on; `None` where they are beside the tile.
+    /// From the first ray of a window to that of the cell `[u, v]` of its slice, whose rows of rays are so many cells `apart`.
     #[inline(always)]
-    pub fn four(&mut self, at: Window, [u, v]: [usize; 2]) -> Option<Four<'_>> {
-        let column = usize::from(at.column) + u;
-        let row = usize::from(at.row) + (v >> u32::from(at.rows > 0));
-        let gathered = self.gathered.get_mut(row.wrapping_sub(BEFORE))?.get_mut(column..)?;
-        let gathered = gathered.as_flattened_mut().first_chunk_mut()?;
-        Some(Four { gathered, open: self.open.get_mut(row)?, column: column as u32 })
+    pub fn way([u, v]: [usize; 2], apart: usize) -> usize {
+        (v >> (apart - 1)) * PITCH + u
     }
 
-    /// C of the first rays of a row, linear associated RGBA; `None` of those that met nothing.
-    pub fn colors(
+    /// Of four rays, from one counted like [`Window::first`] on, bits of those that have not stopped.
+    #[inline(always)]
+    pub fn four(&self, ray: usize) -> u64 {
+        self.open.get(ray / PITCH).map_or(0, |open| open >> (ray % PITCH) & 0xf)
+    }
+
+    /// Puts slabs behind what four rays gathered: associated colour and, below 0, opacity. Sixteen bits, of which every fourth
+    /// tells that a ray is to [`stop`](Self::stop): no more than `stop` comes through.
+    #[inline(always)]
+    pub fn under<S: Simd>(&mut self, simd: S, ray: usize, slabs: f32x16<S>, stop: f32) -> u64 {
+        let gathered = self.gathered.as_flattened_mut().get_mut(ray..);
+        let Some(gathered) = gathered.and_then(<[[f32; 4]]>::first_chunk_mut::<4>) else {
+            return 0;
+        };
+        let gathered = gathered.as_flattened_mut();
+        let before = f32x16::from_slice(simd, gathered);
+        let through = fourth(simd, before);
+        let through = through.simd_gt(stop).select(through, f32x16::splat(simd, 0.0));
+        let after = through * slabs + before;
+        after.store_slice(gathered);
+        after.simd_le(stop).to_bitmask()
+    }
+
+    /// Of what [`under`](Self::under) told of four tiles, each sixteen bits further, the bits of those that stop: four of each
+    /// sixteen.
+    #[inline(always)]
+    pub fn stopped(told: u64) -> u64 {
+        let stopped = told >> 3 & 0x1111_1111_1111_1111;
+        (stopped | stopped >> 3 | stopped >> 6 | stopped >> 9) & 0x000f_000f_000f_000f
+    }
+
+    /// Stops those of four rays whose bits are set.
+    #[inline(always)]
+    pub fn stop(&mut self, ray: usize, stopped: u64) {
+        if let Some(open) = self.open.get_mut(ray / PITCH) {
+            *open &= !(stopped << (ray % PITCH));
+        }
+    }
+
+    /// C of the first rays of a row, linear associated RGBA, into every so manyth of `written`; which of them met anything, first
+    /// and one past the last, and by how much the brightest is above its opacity, 0 if none is.
+    ///
+    /// A ray that stopped is taken as opaque: the colour gathered so far stands for the rest too.
+    #[inline(always)]
+    pub fn write<S: Simd>(
         &self,
+        simd: S,
         row: usize,
-        across: usize,
         stop: f32,
-    ) -> impl Iterator<Item = Option<[f32; 4]>> {
-        self.gathered[row][BEFORE..][..across].iter().map(move |&[r, g, b, through]| {
-            let color = Vec3::new(r, g, b).as_dvec3();
+        (written, every): (&mut [[f32; 4]], usize),
+    ) -> ([usize; 2], f32) {
+        let gathered = &self.gathered[BEFORE + row][BEFORE..BEFORE + WIDE];
+        let mut met = [usize::MAX, 0];
+        let mut most = f32x16::splat(simd, 0.0);
+        let colors = self.size[0].div_ceil(4);
+        for (four, gathered) in gathered.as_chunks::<4>().0.iter().take(colors).enumerate() {
+            let gathered = f32x16::from_slice(simd, gathered.as_flattened());
             // Interpolation may leave an opacity a hair above 1.
-            let ray = Gathered { color, through: f64::from(through.max(0.0)) };
-            (through < 1.0).then(|| ray.rgba(f64::from(stop)))
-        })
+            let through = fourth(simd, gathered).max(0.0);
+            let inside = (1_u64 << (4 * (self.size[0] - 4 * four).min(4))) - 1;
+            let here = through.simd_lt(1.0).to_bitmask() & inside;
+            if here == 0 {
+                continue;
+            }
+            let opacity = 1.0 - through;
+            let is_stopped = through.simd_le(stop) & through.simd_gt(0.0);
+            let colors = is_stopped.select(gathered / opacity, gathered);
+            let opacity = is_stopped.select(f32x16::splat(simd, 1.0), opacity);
+            let colors = colors * f32x16::from_slice(simd, COLOR.as_flattened())
+                + opacity * f32x16::from_slice(simd, OPACITY.as_flattened());
+            most = most.max(colors - opacity);
+            met[0] = met[0].min(4 * four + here.trailing_zeros() as usize / 4);
+            met[1] = 4 * four + here.ilog2() as usize / 4 + 1;
+            let colors = colors.as_slice().as_chunks::<4>().0;
+            for (color, ray) in colors.iter().zip(4 * four..) {
+                if let Some(slot) = written.get_mut(ray * every) {
+                    *slot = *color;
+                }
+            }
+        }
+        let most = most.as_slice().iter().fold(0.0_f32, |most, above| most.max(*above));
+        (met, most)
     }
 }
+
+/// Channels of four rays.
+static COLOR: [[f32; 4]; 4] = [[1.0, 1.0, 1.0, 0.0]; 4];
+static OPACITY: [[f32; 4]; 4] = [[0.0, 0.0, 0.0, 1.0]; 4];
 
 /// By the rows of cells that have rays: which byte of eight words is in which row, and the cells of those rows.
 static ROWS: [([u8; 64], u64); 3] = [
@@ -156,34 +223,4 @@ const fn rows(first: usize, apart: usize) -> [u8; 64] {
         word += 1;
     }
     bytes
-}
-
-/// Four rays of a row.
-pub(super) struct Four<'t> {
-    gathered: &'t mut [f32; 16],
-    open: &'t mut u64,
-    column: u32,
-}
-
-impl Four<'_> {
-    /// Bits of those that have not stopped.
-    #[inline(always)]
-    pub fn left(&self) -> u64 {
-        *self.open >> self.column & 0xf
-    }
-
-    /// Puts slabs behind what they gathered: associated colour and, below 0, opacity. A ray stops when no more than `stop`
-    /// comes through.
-    #[inline(always)]
-    pub fn under<S: Simd>(&mut self, simd: S, slabs: f32x16<S>, stop: f32) {
-        let before = f32x16::from_slice(simd, self.gathered);
-        let through = fourth(simd, before);
-        let through = through.simd_gt(stop).select(through, f32x16::splat(simd, 0.0));
-        let after = through * slabs + before;
-        after.store_slice(self.gathered);
-        // Without a branch: whether a ray stops is no guess, and is known late.
-        let stopped = after.simd_le(stop).to_bitmask() >> 3 & 0x1111;
-        let stopped = (stopped | stopped >> 3 | stopped >> 6 | stopped >> 9) & 0xf;
-        *self.open &= !(stopped << self.column);
-    }
 }
