@@ -219,6 +219,7 @@ pub static KNOBS: &[Knob] = &[
             Setting::PerVoxel(0.5),
             Setting::PerVoxel(1.0),
             Setting::PerVoxel(2.0),
+            Setting::PerVoxel(3.0),
             Setting::PerVoxel(4.0),
             Setting::PerVoxel(0.0),
         ],

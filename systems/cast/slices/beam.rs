@@ -105,7 +105,7 @@ impl<T: Texel> Beam<'_, T> {
             .map(|word| word & inside),
             first: [CELLS as i64 * u - first[0], CELLS as i64 * v - first[1]],
             apart: self.shear.apart,
-            is_parted: inside != u64::MAX || self.shear.apart > 1,
+            is_parted: inside != u64::MAX || (self.shear.apart > 1 && phases.len() > 1),
             scale: self.texels.scale(),
             stop: self.stop,
             ratio: self.ratio,

@@ -55,7 +55,8 @@ pub(super) struct Brick<'a, T> {
     pub first: [i64; 2],
     /// Voxels between rows of rays.
     pub apart: usize,
-    /// Whether some of its cells have no rays, though they may have gel: beyond the last voxels, or between rows of rays.
+    /// Whether some of its cells have no rays, though they may have gel: beyond the last voxels, or between the rows of a phase
+    /// where another has some.
     pub is_parted: bool,
     /// What texels are multiplied by.
     pub scale: Vec4,
@@ -79,16 +80,16 @@ impl<T: Texel> Brick<'_, T> {
             tile.meet();
         }
         let slices = |phase: usize| phases.get(phase).map_or(&[][..], |of| &of[within.clone()]);
-        if let Ok(tiles) = tiles.try_into() {
+        if let Some(tiles) = tiles.first_chunk_mut::<8>() {
             let [a, b, c, d] = [slices(0), slices(1), slices(2), slices(3)];
             let slices = [a, b, c, d, slices(4), slices(5), slices(6), slices(7)];
             self.together::<S, W, 8>(simd, tiles, slices, counts);
-        } else if let Ok(tiles) = tiles.try_into() {
+        } else if let Some(tiles) = tiles.first_chunk_mut::<4>() {
             let slices = [slices(0), slices(1), slices(2), slices(3)];
             self.together::<S, W, 4>(simd, tiles, slices, counts);
-        } else if let Ok(tiles) = tiles.try_into() {
+        } else if let Some(tiles) = tiles.first_chunk_mut::<2>() {
             self.together::<S, W, 2>(simd, tiles, [slices(0), slices(1)], counts);
-        } else if let Ok(tiles) = tiles.try_into() {
+        } else if let Some(tiles) = tiles.first_chunk_mut::<1>() {
             self.together::<S, W, 1>(simd, tiles, [slices(0)], counts);
         }
     }
