@@ -48,6 +48,18 @@ const TRIMS: [Trim; 3] = [
     |sampling, by| sampling.stop_at = (sampling.stop_at.max(0.001) * by as f32).min(0.5),
 ];
 
+/// Settings beside some: rays that begin farther apart, and rays that stop sooner, and both.
+fn neighbors(sampling: &Sampling) -> Vec<Sampling> {
+    let coarsest = sampling.coarsest.max(32);
+    let stop_at = (2.5 * sampling.stop_at).min(0.5);
+    let all = [
+        Sampling { coarsest, ..sampling.clone() },
+        Sampling { stop_at, ..sampling.clone() },
+        Sampling { coarsest, stop_at, ..sampling.clone() },
+    ];
+    all.into_iter().filter(|other| other != sampling).collect()
+}
+
 impl<'a> Bench<'a> {
     /// Casts the exact pixels, if the goal asks for an accuracy.
     pub fn new(traded: &'a mut TradeScene, goal: Goal) -> Result<Self, Failure> {
@@ -102,7 +114,16 @@ impl<'a> Bench<'a> {
                 }
             }
         }
-        best.ok_or_else(|| Failure::Said("no settings were tried".to_owned()))
+        let mut best = best.ok_or_else(|| Failure::Said("no settings were tried".to_owned()))?;
+        for sampling in neighbors(&best.sampling) {
+            for trim in &TRIMS[..2] {
+                let tried = self.balanced(&sampling, *trim)?;
+                if let Some(tried) = tried.filter(|tried| tried.cost < best.cost) {
+                    best = tried;
+                }
+            }
+        }
+        Ok(best)
     }
 
     /// The most exact settings that keep a time.
@@ -146,6 +167,25 @@ impl<'a> Bench<'a> {
             if tried.kept >= 0.0 {
                 low = middle;
                 best = tried;
+            } else {
+                high = middle;
+            }
+        }
+        Ok(best)
+    }
+
+    /// Settings turned by a knob either way, by a factor of two at most, to where the goal is just kept; `None` if it is nowhere.
+    fn balanced(&mut self, start: &Sampling, trim: Trim) -> Result<Option<Tried>, Failure> {
+        let mut best = None;
+        let (mut low, mut high) = (-1.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(low, high);
+            let mut sampling = start.clone();
+            trim(&mut sampling, 2.0_f64.powf(middle));
+            let tried = self.tried(sampling)?;
+            if tried.kept >= 0.0 {
+                low = middle;
+                best = Some(tried);
             } else {
                 high = middle;
             }

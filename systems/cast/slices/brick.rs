@@ -258,13 +258,26 @@ impl<T: Texel> Brick<'_, T> {
         for ray in 0..4 {
             alone[ray] = f64::from(-opacities[4 * ray]).clamp(0.0, 1.0);
         }
-        let thick = thicken_each(&alone, &[self.ratio; 4]);
-        let mut parts = [[0.0; 4]; 4];
-        for ray in 0..4 {
-            parts[ray] = [recolor(alone[ray], thick[ray], self.ratio) as f32; 4];
-        }
-        slabs * f32x16::from_slice(simd, parts.as_flattened())
+        slabs * f32x16::from_slice(simd, parts(simd, &alone, self.ratio).as_flattened())
     }
+}
+
+/// What slabs of such opacities are multiplied by to be so many times as thick, in all four channels.
+///
+/// A function of its own: few scenes take it, and it would stand in each of those that rays are passed with.
+#[inline(never)]
+fn parts<S: Simd>(simd: S, alone: &[f64; 4], ratio: f64) -> [[f32; 4]; 4] {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let thick = thicken_each(alone, &[ratio; 4]);
+            let mut parts = [[0.0; 4]; 4];
+            for ray in 0..4 {
+                parts[ray] = [recolor(alone[ray], thick[ray], ratio) as f32; 4];
+            }
+            parts
+        },
+    )
 }
 
 /// What is between the corners of the cells of four rays.
