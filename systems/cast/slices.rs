@@ -12,6 +12,7 @@ mod ahead;
 mod beam;
 mod brick;
 mod cells;
+mod fours;
 mod occupied;
 mod order;
 mod shear;
