@@ -1,7 +1,5 @@
 //! What numbers do at their extremes: scenes taken far from the middle, beside what they should be, for the report.
 
-use std::fmt::Write;
-
 use gelray::Renderer;
 use gelray::scene::{Scene, Source, load};
 use gelray::view::picture::Picture;
@@ -192,10 +190,7 @@ fn words(rows: &[Vec<f64>]) -> String {
 /// A value as people write it.
 fn short(value: f64) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value) {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{value}");
-        text
+        format!("{value}")
     } else {
         format!("{value:e}")
     }

@@ -1,7 +1,5 @@
 //! How cost grows with what a frame is made of: exponents of power laws for the report, fitted with their bounds.
 
-use std::fmt::Write;
-
 use gelray::Renderer;
 use gelray::components::{Light, Toward, View};
 use gelray::measure::cost::FRAME;
@@ -16,6 +14,7 @@ use super::html::table;
 use super::noted::VERSION;
 use super::outputs::write_json;
 use super::report_parts::Parts;
+use super::report_scenes;
 
 /// What varies, what the paper says of it, and how it is measured.
 struct Row {
@@ -78,20 +77,9 @@ const ROWS: [Row; 5] = [
 const BALL: &str = "[[entity]]\nname = \"ball\"\nvolume = { file = \"phantom:ball\" }\nclassify = { iso = [{ value = \"0.5sigma\", form = \"around\" }] }\n";
 const VIEW: &str = "[[entity]]\nname = \"observer\"\nview = { azimuth = 30, elevation = 20 }\n[entity.sampling]\ndistance_mm = 1.0\n";
 
-/// Squares one behind the other.
+/// Half clear squares one behind the other.
 fn squares(n: u32) -> String {
-    let mut text = String::new();
-    for at in 0..n {
-        let y = 24.0 * (f64::from(at) / f64::from(n) - 0.5);
-        let corners = [[-24.0, -24.0], [24.0, -24.0], [24.0, 24.0], [-24.0, 24.0]];
-        let vertices = corners.map(|[x, z]| [x, y, z]);
-        // Writing to a string cannot fail.
-        let _ = write!(
-            text,
-            "[[entity]]\nname = \"square {at}\"\npolygon = {{ vertices = {vertices:?} }}\nsurface = {{ opacity = 0.5 }}\n"
-        );
-    }
-    text
+    report_scenes::squares(n, (24.0, 24.0), 0.5)
 }
 
 /// Lights around a scene.

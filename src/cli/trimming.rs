@@ -105,9 +105,11 @@ impl<'a> Bench<'a> {
         let mut best: Option<Tried> = None;
         for sampling in &front[high..(high + 2).min(front.len())] {
             let start = self.tried((*sampling).clone())?;
-            let trims = TRIMS.map(|trim| self.trimmed(&start, |by| by, trim));
-            for tried in trims.into_iter().chain([Ok(start)]) {
-                let tried = tried?;
+            let turned =
+                TRIMS.map(|trim| self.turned(&start.sampling, |part| 4.0_f64.powf(part), trim));
+            let turned: Vec<Tried> =
+                turned.into_iter().filter_map(Result::transpose).collect::<Result<_, _>>()?;
+            for tried in turned.into_iter().chain([start]) {
                 let cheaper = best.as_ref().is_none_or(|best| tried.cost < best.cost);
                 if tried.kept >= 0.0 && cheaper {
                     best = Some(tried);
@@ -117,7 +119,8 @@ impl<'a> Bench<'a> {
         let mut best = best.ok_or_else(|| Failure::Said("no settings were tried".to_owned()))?;
         for sampling in neighbors(&best.sampling) {
             for trim in &TRIMS[..2] {
-                let tried = self.balanced(&sampling, *trim)?;
+                // By a factor of two at most, either way.
+                let tried = self.turned(&sampling, |part| 2.0_f64.powf(2.0 * part - 1.0), *trim)?;
                 if let Some(tried) = tried.filter(|tried| tried.cost < best.cost) {
                     best = tried;
                 }
@@ -147,41 +150,24 @@ impl<'a> Bench<'a> {
                 "no settings that were tried keep the target, the fastest {least}; allow for more time, or a smaller --size"
             )));
         };
-        self.trimmed(&start, |by| 1.0 / by, TRIMS[0])
+        let turned = self.turned(&start.sampling, |part| 1.0 / 4.0_f64.powf(part), TRIMS[0])?;
+        Ok(turned.unwrap_or(start))
     }
 
-    /// Settings turned by a knob as far as the goal is kept, up to a factor of four.
-    fn trimmed(
+    /// Settings turned by a knob as far as the goal is kept, from a factor of part 0 to that of part 1; `None` where no factor that
+    /// was tried keeps it.
+    fn turned(
         &mut self,
-        start: &Tried,
-        direction: fn(f64) -> f64,
+        start: &Sampling,
+        factor: fn(f64) -> f64,
         trim: Trim,
-    ) -> Result<Tried, Failure> {
-        let mut best = start.clone();
+    ) -> Result<Option<Tried>, Failure> {
+        let mut best = None;
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
-            let mut sampling = start.sampling.clone();
-            trim(&mut sampling, direction(4.0_f64.powf(middle)));
-            let tried = self.tried(sampling)?;
-            if tried.kept >= 0.0 {
-                low = middle;
-                best = tried;
-            } else {
-                high = middle;
-            }
-        }
-        Ok(best)
-    }
-
-    /// Settings turned by a knob either way, by a factor of two at most, to where the goal is just kept; `None` if it is nowhere.
-    fn balanced(&mut self, start: &Sampling, trim: Trim) -> Result<Option<Tried>, Failure> {
-        let mut best = None;
-        let (mut low, mut high) = (-1.0, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(low, high);
             let mut sampling = start.clone();
-            trim(&mut sampling, 2.0_f64.powf(middle));
+            trim(&mut sampling, factor(middle));
             let tried = self.tried(sampling)?;
             if tried.kept >= 0.0 {
                 low = middle;

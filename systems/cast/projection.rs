@@ -183,7 +183,8 @@ impl Projected<'_> {
         counts: &mut Counts,
     ) -> Option<Found> {
         let [low, high] = self.walk.interval(tile, lane);
-        let (high, middle) = (high.min(end), f64::midpoint(low, high.min(end)));
+        let high = high.min(end);
+        let middle = f64::midpoint(low, high);
         let StatedProjection { grid, scalars, clip, .. } = self.stated;
         let is_cut = || clip.as_ref().is_some_and(|clip| clip.distance(place(middle)) < 0.0);
         if low >= high || is_cut() {
@@ -191,7 +192,7 @@ impl Projected<'_> {
         }
         let ray = Sought { tile, lane, size: grid.size, first: middle as i64 };
         let density = |value| self.density(value);
-        with_scalars!(scalars, values => ray.between(values, [low, high], density, counts))
+        with_scalars!(scalars, values => ray.between(values, (middle, high - low), density, counts))
     }
 
     /// How much a value emits, if any does.

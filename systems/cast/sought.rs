@@ -68,23 +68,22 @@ impl Sought<'_> {
         found.map(|(value, sample)| Found { value, sample: sample as f64, sum })
     }
 
-    /// The value in the middle of a way through the volume that no sample lies on, from `low` to `high`, which are numbers of
-    /// samples or between them; its density counts for all of that way.
+    /// The value at a place that no sample need lie on, a number of a sample or between two; its density counts for so many
+    /// samples' distances.
     pub fn between<T: Scalar>(
         &self,
         values: &[T],
-        [low, high]: [f64; 2],
+        (sample, way): (f64, f64),
         density: impl Fn(f32) -> f64,
         counts: &mut Counts,
     ) -> Option<Found> {
         counts.samples += 1;
-        let sample = f64::midpoint(low, high);
         let place = std::array::from_fn(|axis| {
             let last = ((self.size[axis] - 1) as i64) << FRACTION_BITS;
             self.tile.place_between(axis, self.lane, sample).clamp(0, last)
         });
         let value = self.value(values, place, self.cell(place));
-        let found = Found { value, sample, sum: density(value) * (high - low) };
+        let found = Found { value, sample, sum: density(value) * way };
         value.is_finite().then_some(found)
     }
 

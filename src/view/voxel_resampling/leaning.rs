@@ -27,7 +27,7 @@ pub(super) fn pixels<S: Simd>(
     let [none, first] = [both_axes!(0), both_axes!(1)];
     let [second, third] = [both_axes!(2), both_axes!(3)];
     let last = u8x16::from_slice(simd, &LAST);
-    let excess = f32x4::from_slice(simd, &[met.excess, met.excess, met.excess, 0.0]);
+    let excess = f32x4::from_slice(simd, &[rays.excess, rays.excess, rays.excess, 0.0]);
     let right = rays.places.right;
     let [from, to] = met.shown((start, right), row.len());
     let mut places = LatticeWalk::from(start + right * from as f64, right);

@@ -11,8 +11,6 @@ pub(super) struct MetRays {
     /// Of each row of rays: the places behind a ray, from the first on and before the last, with four by four rays around of
     /// which one may have met anything.
     pub near: Vec<[i64; 2]>,
-    /// By how much some ray is brighter than its opacity: above 0 by strong lights.
-    pub excess: f32,
 }
 
 impl MetRays {
@@ -31,7 +29,7 @@ impl MetRays {
             let to = rows().map(|row| i64::from(row[1]) + 1).max().unwrap_or(0);
             [from.max(1), to.min(most)]
         };
-        Self { bounds, near: (0..rays.met.len()).map(near).collect(), excess: rays.excess }
+        Self { bounds, near: (0..rays.met.len()).map(near).collect() }
     }
 
     /// The pixels `[from, to)` of a row, of which the first lies at `start`, outside which nothing that rays met is near.

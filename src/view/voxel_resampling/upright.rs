@@ -73,7 +73,7 @@ impl<'a> Upright<'a> {
             if met[0] <= met[1] {
                 let powers = &self.cubics.down;
                 let columns = Columns { made, low, met, below, powers };
-                columns.pixels(simd, (first, ends), self.met.excess, (left, width, rows));
+                columns.pixels(simd, (first, ends), self.rays.excess, (left, width, rows));
             }
         }
     }

@@ -92,6 +92,9 @@ impl<T: Texel> Beam<'_, T> {
         let Shear { axes, size, phases, .. } = self.shear;
         let Ahead { next: Next { at: [u, v], rows, columns }, words, texels } = brick;
         let Some(words) = words else { return };
+        if tiles.iter().all(|tile| tile.open_in(rows) & columns == 0) {
+            return;
+        }
         let inside =
             [(0, u), (1, v)].map(|(axis, at)| (size[axis] - 1).saturating_sub(CELLS * at as usize));
         let inside = within(inside);
@@ -110,21 +113,11 @@ impl<T: Texel> Beam<'_, T> {
             stop: self.stop,
             ratio: self.ratio,
         };
-        let (mut tiles, mut phases) = (tiles, &phases[..]);
-        while !tiles.is_empty() {
-            let together = [8, 4, 2, 1].into_iter().find(|n| *n <= tiles.len()).unwrap_or(1);
-            let (some, more) = tiles.split_at_mut(together);
-            let (of_some, of_more) = phases.split_at(together);
-            (tiles, phases) = (more, of_more);
-            if some.iter().all(|tile| tile.open_in(rows) & columns == 0) {
-                continue;
-            }
-            let slices = (of_some, &layer.slices);
-            match axes[2] {
-                2 => brick.pass::<S, 2>(simd, some, slices, counts),
-                1 => brick.pass::<S, 1>(simd, some, slices, counts),
-                _ => brick.pass::<S, 0>(simd, some, slices, counts),
-            }
+        let slices = (&phases[..], &layer.slices);
+        match axes[2] {
+            2 => brick.pass::<S, 2>(simd, tiles, slices, counts),
+            1 => brick.pass::<S, 1>(simd, tiles, slices, counts),
+            _ => brick.pass::<S, 0>(simd, tiles, slices, counts),
         }
     }
 }

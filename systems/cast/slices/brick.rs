@@ -66,31 +66,33 @@ pub(super) struct Brick<'a, T> {
 }
 
 impl<T: Texel> Brick<'_, T> {
-    /// Takes the rays of one, two, four or eight tiles, a phase each, through the slices `within` a layer of bricks.
+    /// Takes the rays of tiles, a phase each, through the slices `within` a layer of bricks: as many phases together as there is
+    /// code for.
     #[inline(always)]
     pub fn pass<S: Simd, const W: usize>(
         &self,
         simd: S,
-        tiles: &mut [Tile],
-        (phases, within): (&[Vec<Slice>], &Range<usize>),
+        mut tiles: &mut [Tile],
+        (mut phases, within): (&[Vec<Slice>], &Range<usize>),
         counts: &mut Counts,
     ) {
-        for tile in &mut *tiles {
-            tile.meet();
+        macro_rules! together {
+            ($($number:literal)*) => {$(
+                let (some, left) = tiles.as_chunks_mut::<$number>();
+                let (of_some, of_left) = phases.as_chunks::<$number>();
+                for (tiles, phases) in some.iter_mut().zip(of_some) {
+                    let mut slices = [&[][..]; $number];
+                    for phase in 0..$number {
+                        tiles[phase].meet();
+                        slices[phase] = &phases[phase][within.clone()];
+                    }
+                    self.together::<S, W, $number>(simd, tiles, slices, counts);
+                }
+                (tiles, phases) = (left, of_left);
+            )*};
         }
-        let slices = |phase: usize| phases.get(phase).map_or(&[][..], |of| &of[within.clone()]);
-        if let Some(tiles) = tiles.first_chunk_mut::<8>() {
-            let [a, b, c, d] = [slices(0), slices(1), slices(2), slices(3)];
-            let slices = [a, b, c, d, slices(4), slices(5), slices(6), slices(7)];
-            self.together::<S, W, 8>(simd, tiles, slices, counts);
-        } else if let Some(tiles) = tiles.first_chunk_mut::<4>() {
-            let slices = [slices(0), slices(1), slices(2), slices(3)];
-            self.together::<S, W, 4>(simd, tiles, slices, counts);
-        } else if let Some(tiles) = tiles.first_chunk_mut::<2>() {
-            self.together::<S, W, 2>(simd, tiles, [slices(0), slices(1)], counts);
-        } else if let Some(tiles) = tiles.first_chunk_mut::<1>() {
-            self.together::<S, W, 1>(simd, tiles, [slices(0)], counts);
-        }
+        together!(8 4 2 1);
+        debug_assert!(tiles.is_empty() && phases.is_empty(), "each phase has a tile");
     }
 
     /// Takes the rays of tiles, a phase each, through their slices, the nearest first, which lie across axis `W`.

@@ -3,8 +3,7 @@
 //! Of a volume's axes w is the one along which a ray crosses most voxels; u and v are the others, u the one that lies in
 //! rows of memory where it can. A ray is at u = U + σ_u (w − w_0), with σ_u at most 1: on a plane of constant w rays whose U
 //! are 1 apart are a voxel apart. Where more than a ray a voxel is asked for, lattices are laid between one another: their
-//! *phases* differ in the fraction of U and V. Rows of a phase may be two voxels apart: half a ray
-//! a voxel, or one and a half.
+//! *phases* differ in the fraction of U and V. Rows of a phase may be two voxels apart: half a ray a voxel, or one and a half.
 
 use glam::{DVec2, DVec3};
 

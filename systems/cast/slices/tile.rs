@@ -174,8 +174,8 @@ impl Tile {
         let gathered = &self.gathered[BEFORE + row][BEFORE..BEFORE + WIDE];
         let mut met = [usize::MAX, 0];
         let mut most = f32x16::splat(simd, 0.0);
-        let colors = self.size[0].div_ceil(4);
-        for (four, gathered) in gathered.as_chunks::<4>().0.iter().take(colors).enumerate() {
+        let fours = self.size[0].div_ceil(4);
+        for (four, gathered) in gathered.as_chunks::<4>().0.iter().take(fours).enumerate() {
             let gathered = f32x16::from_slice(simd, gathered.as_flattened());
             // Interpolation may leave an opacity a hair above 1.
             let through = fourth(simd, gathered).max(0.0);
