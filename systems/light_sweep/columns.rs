@@ -6,17 +6,22 @@
 //! elsewhere its error falls with the square of the slices' distance. A column that enters through a side starts with
 //! the part of a slab that it has in the volume.
 
+#![allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
+
 use std::ops::Range;
 
+use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use super::casters::Casters;
 use super::opacities::Opacities;
 use crate::light::strength::{Place, Shear, Slide};
-use crate::view::composite::thicken;
+use crate::view::composite::{is_simple, thicken, thicken_each};
 
 /// Rows of columns that one task walks.
 const ROWS: usize = 16;
+/// Columns of a row that are attenuated side by side.
+const COLUMNS: usize = 8;
 
 /// The columns at one slice, and their strengths at the slices within the bias before it.
 pub(super) struct Columns<'a> {
@@ -85,6 +90,8 @@ struct SweepStep<'a> {
     came: [Range<usize>; 2],
     /// What is added to the place of a kept column to get its place at the slice before.
     shift: [isize; 2],
+    /// The instructions that columns are attenuated with; no bit depends on them.
+    level: Level,
 }
 
 impl<'a> SweepStep<'a> {
@@ -94,7 +101,8 @@ impl<'a> SweepStep<'a> {
         let phase = window.phase.map(|phase| phase as f32);
         let came = if slice == 0 { [0..0, 0..0] } else { shear.entered(slice - 1) };
         let shift = [0, 1].map(|axis| (window.low[axis] - was.low[axis]) as isize);
-        Self { columns, casters, slice, phase, entered: shear.entered(slice), came, shift }
+        let (entered, level) = (shear.entered(slice), Level::new());
+        Self { columns, casters, slice, phase, entered, came, shift, level }
     }
 
     /// Rows of columns from `first` on.
@@ -152,12 +160,71 @@ impl<'a> SweepStep<'a> {
             strengths.iter_mut().zip(arriving).for_each(|(s, &arriving)| *s = arriving as f32);
             return;
         };
-        let columns = known.clone().zip(arriving).zip(next.iter_mut().zip(strengths));
-        for ((x, &arriving), (next, strength)) in columns {
-            let opacity = opacities.at(x, self.phase[0]);
-            let half = if opacity > 0.0 { self.through(opacity, 0.5) } else { 1.0 };
-            let here = arriving * half;
-            (*next, *strength) = (here * half, here as f32);
+        let met = opacities.between(known.clone());
+        let columns = (met, arriving);
+        dispatch!(self.level, _simd => self.attenuate(columns, (next, strengths)));
+    }
+
+    /// The same of columns among opacities, `COLUMNS` at a time; of those there is one more than columns.
+    #[inline(always)]
+    fn attenuate(
+        &self,
+        (opacities, arriving): (&[f32], &[f64]),
+        (next, strengths): (&mut [f64], &mut [f32]),
+    ) {
+        for first in (0..arriving.len()).step_by(COLUMNS) {
+            let (opacities, arriving) = (&opacities[first..], &arriving[first..]);
+            let (next, strengths) = (&mut next[first..], &mut strengths[first..]);
+            let (mut here, mut behind) = ([0.0; COLUMNS], [0.0; COLUMNS]);
+            if let Some(arriving) = arriving.first_chunk::<COLUMNS>()
+                && let Some(opacities) = opacities.first_chunk::<{ COLUMNS + 1 }>()
+            {
+                self.side_by_side(opacities, arriving, (&mut here, &mut behind));
+            } else {
+                let (mut last, mut light) = ([0.0; COLUMNS + 1], [0.0; COLUMNS]);
+                last[..=arriving.len()].copy_from_slice(opacities);
+                light[..arriving.len()].copy_from_slice(arriving);
+                self.side_by_side(&last, &light, (&mut here, &mut behind));
+            }
+            let count = COLUMNS.min(arriving.len());
+            next[..count].copy_from_slice(&behind[..count]);
+            for n in 0..count {
+                strengths[n] = here[n] as f32;
+            }
+        }
+    }
+
+    /// What is left at the slice of what arrives, and behind its farther half-slab.
+    #[inline(always)]
+    fn side_by_side(
+        &self,
+        opacities: &[f32; COLUMNS + 1],
+        arriving: &[f64; COLUMNS],
+        (here, behind): (&mut [f64; COLUMNS], &mut [f64; COLUMNS]),
+    ) {
+        let (mut met, mut most) = ([0.0; COLUMNS], 0.0_f32);
+        for n in 0..COLUMNS {
+            let opacity = opacities[n + 1] + self.phase[0] * (opacities[n] - opacities[n + 1]);
+            met[n] = f64::from(opacity.max(0.0));
+            most = most.max(opacity);
+        }
+        if most <= 0.0 {
+            (*here, *behind) = (*arriving, *arriving);
+            return;
+        }
+        let part = self.columns.ratio * 0.5;
+        let mut halves = [0.0; COLUMNS];
+        if is_simple(part) {
+            for n in 0..COLUMNS {
+                halves[n] = thicken(met[n], part);
+            }
+        } else {
+            halves = thicken_each(&met, &[part; COLUMNS]);
+        }
+        for n in 0..COLUMNS {
+            let half = 1.0 - halves[n];
+            here[n] = arriving[n] * half;
+            behind[n] = here[n] * half;
         }
     }
 

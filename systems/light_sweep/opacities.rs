@@ -1,5 +1,7 @@
 //! Opacities where columns meet a slice: the only thing that a sweep interpolates, bilinearly within the slice.
 
+use std::ops::Range;
+
 use super::casters::Casters;
 use crate::light::strength::Shear;
 use crate::volume::bricks::EDGE;
@@ -67,6 +69,11 @@ impl Opacities {
         self.row[0] = self.row[1];
         self.row[across + 1] = self.row[across];
         true
+    }
+
+    /// The opacities that some columns meet the slice between: one more than columns, the first is of the voxel before them.
+    pub fn between(&self, columns: Range<usize>) -> &[f32] {
+        &self.row[columns.start..=columns.end]
     }
 
     /// The opacity where column `x` of the row meets the slice.

@@ -122,6 +122,15 @@ impl Backdrop {
         painted.map_or(Self::Clear, |painted| Self::Painted((*painted).clone(), clip))
     }
 
+    /// Whether a voxel of a brick may have an opacity.
+    fn may_hold(&self, place: BrickPlace) -> bool {
+        match self {
+            Self::Made(opacity, _) => opacity.brick(place.brick).is_some(),
+            Self::Painted(..) => true,
+            Self::Clear => false,
+        }
+    }
+
     /// Fills in α_V of a brick, which comes zeroed.
     fn opacity(&self, grid: &Grid, place: BrickPlace, made: &mut [f32; VOXELS]) {
         match self {
@@ -241,7 +250,7 @@ impl Inputs {
     fn composite(&self) -> Layer {
         let there: Vec<There> =
             self.polygons.iter().map(|p| p.there(&self.grid, self.unit)).collect();
-        let opacity = Bricks::make(self.grid.size, |place, alpha| {
+        let opacity = Bricks::make_where(self.grid.size, |place| self.may_hold(place), |place, alpha| {
             self.backdrop.opacity(&self.grid, place, alpha);
             self.matte(&there, place, alpha, |_, _, _, _| {});
             alpha.iter().any(|&alpha| alpha > 0.0)
@@ -256,12 +265,16 @@ impl Inputs {
         Layer { opacity, colors: LitColors { base, shadowed, ambient } }
     }
 
+    /// Whether anything may be in a brick.
+    fn may_hold(&self, place: BrickPlace) -> bool {
+        let of_polygon = |polygon: &Polygon| polygon.coverage.opacity.brick(place.brick).is_some();
+        self.backdrop.may_hold(place) || self.polygons.iter().any(of_polygon)
+    }
+
     /// One of the composite's colours. Bricks in which it is black are kept of `base` alone.
     fn color(&self, there: &[There], opacity: &Bricks<f32>, channel: Channel) -> Bricks<[f32; 3]> {
-        Bricks::make(self.grid.size, |place, made| {
-            if opacity.brick(place.brick).is_none() {
-                return false;
-            }
+        let is_stored = |place: BrickPlace| opacity.brick(place.brick).is_some();
+        Bricks::make_where(self.grid.size, is_stored, |place, made| {
             let mut alpha = [0.0; VOXELS];
             self.backdrop.opacity(&self.grid, place, &mut alpha);
             self.backdrop.color(&self.grid, place, channel, made);

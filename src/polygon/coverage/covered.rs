@@ -98,34 +98,39 @@ impl Covered {
     /// α_G.
     #[must_use]
     pub fn opacity(&self) -> Bricks<f32> {
-        Bricks::make(self.size, |place, made| {
-            self.brick(place.brick).is_some_and(|touched| {
-                made.copy_from_slice(&touched.opacity[..]);
-                true
-            })
-        })
+        self.in_touched(|touched, made| made.copy_from_slice(&touched.opacity[..]))
     }
 
     /// The colours of covered voxels, of the colours of the faces; 0 where nothing is covered.
     #[must_use]
     pub fn colors(&self, of_faces: &[Vec3]) -> Bricks<[f32; 3]> {
-        Bricks::make(self.size, |place, made| {
-            let Some(touched) = self.brick(place.brick) else { return false };
-            match &touched.shares {
-                Shares::One(face) => {
-                    let color = of_faces[*face].to_array();
-                    for (made, opacity) in made.iter_mut().zip(touched.opacity.iter()) {
-                        *made = if *opacity > 0.0 { color } else { [0.0; 3] };
-                    }
-                }
-                Shares::Many(shares) => {
-                    for &(voxel, face, part) in shares {
-                        let made = &mut made[usize::from(voxel)];
-                        *made = (Vec3::from(*made) + of_faces[face] * part).to_array();
-                    }
+        self.in_touched(|touched, made| match &touched.shares {
+            Shares::One(face) => {
+                let color = of_faces[*face].to_array();
+                for (made, opacity) in made.iter_mut().zip(touched.opacity.iter()) {
+                    *made = if *opacity > 0.0 { color } else { [0.0; 3] };
                 }
             }
-            true
+            Shares::Many(shares) => {
+                for &(voxel, face, part) in shares {
+                    let made: &mut [f32; 3] = &mut made[usize::from(voxel)];
+                    *made = (Vec3::from(*made) + of_faces[face] * part).to_array();
+                }
+            }
+        })
+    }
+
+    /// What is made of the bricks that are touched, and of no other: a plane touches one brick of thirty.
+    fn in_touched<T: Copy + Default + Send + Sync>(
+        &self,
+        make: impl Fn(&Touched, &mut [T; VOXELS]) + Send + Sync,
+    ) -> Bricks<T> {
+        let is_touched = |place: BrickPlace| self.brick(place.brick).is_some();
+        Bricks::make_where(self.size, is_touched, |place, made| {
+            self.brick(place.brick).is_some_and(|touched| {
+                make(touched, made);
+                true
+            })
         })
     }
 }
