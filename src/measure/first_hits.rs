@@ -1,9 +1,12 @@
 //! What is seen first of each pixel: how deep it lies, which way it faces, and of which entity it is.
 //!
 //! A pixel's ray through its middle meets what makes it half opaque: where its transparency falls below ½, in gel or at a
-//! polygon. Textures are left out, and so are volumes that are projected.
+//! polygon. Textures are left out, and so are volumes that are projected. Of all faces a pixel asks those drawn near it
+//! (`tiles`), and of slabs those in which a volume may show anything (`passage`); what it finds is what it would find in all.
 
 mod gelled;
+mod passage;
+mod tiles;
 mod traced;
 mod valued;
 
@@ -26,8 +29,11 @@ use crate::volume::grid::{Scalars, smallest_spacing};
 use crate::volume::pyramid::Pyramid;
 use crate::volume::ranges::Ranges;
 use crate::volume::scene_volumes::{Content, SceneVolume, volumes};
+use crate::with_texels;
 use gelled::Gelled;
-use traced::Traced;
+use passage::{Passage, Room, Sought};
+use tiles::{Pixels, Tiles};
+use traced::{Traced, pixels};
 use valued::{Crossed, Valued};
 
 /// What a ray lets through where it has met something.
@@ -59,18 +65,7 @@ struct Hit {
 ///
 /// Fails without a view.
 pub fn first_hits(world: &World) -> Result<FirstHits, Error> {
-    let missing = || Error::Schedule("there is no view to find first hits on".to_owned());
-    let view = first_view(world).ok_or_else(missing)?;
-    let mut seen = world.query_one::<(&View, &Sampling, &Extent)>(view);
-    let (view, sampling, extent) = seen.get().map_err(|_| missing())?;
-    let seen = volumes(world).into_iter();
-    let seen: Vec<_> = seen.filter(|volume| volume.content != Content::Projected).collect();
-    let step = sampling.distance_mm.or_else(|| smallest_spacing(seen.iter().map(|v| v.grid)));
-    let volumes = seen.iter().filter_map(|volume| asked(world, volume, sampling)).collect();
-    let camera = Camera::new(view, extent);
-    let faces = traced(world, &camera);
-    let step = step.unwrap_or(extent.radius());
-    Ok(Scene { camera, extent: *extent, step, volumes, faces }.hits())
+    Ok(Scene::of(world)?.hits())
 }
 
 /// What is traced, and what is known of it.
@@ -79,16 +74,17 @@ type SeenFaces<'a> = (&'a Faces, &'a Surface, Own<'a>, Option<&'a Order>);
 /// What faces have of their own.
 type Own<'a> = (Option<&'a FaceOpacities>, Option<&'a CornerNormals>);
 
-/// All polygons that are traced on a view.
-fn traced(world: &World, camera: &Camera) -> Vec<Traced> {
+/// All polygons that are traced, of those that any pixels may meet.
+fn traced(world: &World, pixels: impl Fn(&Face) -> Option<Pixels> + Sync) -> Vec<Traced> {
     let mut all = world.query::<SeenFaces<'_>>().without::<&Voxelize>();
     let of_entity = |(faces, surface, (opacities, normals), order): SeenFaces| {
         let traced = |(at, face): (usize, &Face)| {
             let opacity = f64::from(surface.opacity * FaceOpacities::of(opacities, at));
+            let pixels = pixels(face)?;
             let bent = normals.and_then(|normals| normals.over(at, face));
-            Traced::new((face, bent), camera, opacity, number(order))
+            Some(Traced::new((face, bent), pixels, opacity, number(order)))
         };
-        faces.0.iter().enumerate().map(traced).collect::<Vec<_>>()
+        faces.0.par_iter().enumerate().filter_map(traced).collect::<Vec<_>>()
     };
     all.iter().flat_map(of_entity).collect()
 }
@@ -97,22 +93,28 @@ fn traced(world: &World, camera: &Camera) -> Vec<Traced> {
 fn asked(world: &World, volume: &SceneVolume, sampling: &Sampling) -> Option<Volume> {
     let SceneVolume { entity, grid, unit, content } = *volume;
     let order = world.get::<&Order>(entity).ok();
-    let content = if content == Content::Values {
+    let pyramid = world.get::<&Pyramid>(entity).map(|pyramid| (*pyramid).clone()).ok();
+    let (content, room) = if content == Content::Values {
         type Stated<'a> = (&'a Scalars, &'a Classify, Option<&'a Material>, Option<&'a Clip>);
         let mut query = world.query_one::<Stated<'_>>(entity);
         let (scalars, classify, material, clip) = query.get().ok()?;
-        let made = world.get::<&Coefficients>(entity).map(|made| made.values.clone());
-        let sampled = (made.unwrap_or_else(|_| scalars.clone()), sampling.filter);
-        let pyramid = world.get::<&Pyramid>(entity).map(|pyramid| (*pyramid).clone()).ok();
+        let made = world.get::<&Coefficients>(entity).ok();
+        let values = made.as_ref().map_or(scalars, |made| &made.values).clone();
+        let sampled = (values, sampling.filter);
         let material = material.cloned().unwrap_or_default();
         let stated = (classify, &material, clip);
         let finite = world.get::<&Ranges>(entity).is_ok_and(|ranges| ranges.are_finite());
-        let valued = Valued::new(sampled, (grid, unit), pyramid, stated);
-        Asked::Values(Box::new(valued.integrated(sampling.integrate && finite)))
+        let valued = Valued::new(sampled, (grid, unit), pyramid.clone(), stated);
+        let valued = valued.integrated(sampling.integrate && finite);
+        let smooth = finite && made.is_none_or(|made| made.ranges.are_finite());
+        let room = Room::new(&grid, pyramid, valued.sought(smooth));
+        (Asked::Values(Box::new(valued)), room)
     } else {
-        Asked::Gel(Gelled::new(world.get::<&Gel>(entity).ok()?.lit.clone(), &grid))
+        let gel = world.get::<&Gel>(entity).ok()?.lit.clone();
+        let pyramid = pyramid.unwrap_or_else(|| with_texels!(&gel, texels => Pyramid::of(texels)));
+        (Asked::Gel(Gelled::new(gel, &grid)), Room::new(&grid, Some(pyramid), Sought::AtMiddle))
     };
-    Some(Volume { content, unit, entity: number(order.as_deref()) })
+    Some(Volume { content, room, unit, entity: number(order.as_deref()) })
 }
 
 fn number(order: Option<&Order>) -> u32 {
@@ -130,6 +132,7 @@ struct Scene {
 /// A volume as it is asked.
 struct Volume {
     content: Asked,
+    room: Room,
     unit: f64,
     entity: u32,
 }
@@ -140,32 +143,56 @@ enum Asked {
 }
 
 impl Scene {
+    /// What the first view of a world whose systems have run sees; fails without a view.
+    fn of(world: &World) -> Result<Self, Error> {
+        let missing = || Error::Schedule("there is no view to find first hits on".to_owned());
+        let view = first_view(world).ok_or_else(missing)?;
+        let mut seen = world.query_one::<(&View, &Sampling, &Extent)>(view);
+        let (view, sampling, extent) = seen.get().map_err(|_| missing())?;
+        let seen = volumes(world).into_iter();
+        let seen: Vec<_> = seen.filter(|volume| volume.content != Content::Projected).collect();
+        let step = sampling.distance_mm.or_else(|| smallest_spacing(seen.iter().map(|v| v.grid)));
+        let volumes = seen.iter().filter_map(|volume| asked(world, volume, sampling)).collect();
+        let camera = Camera::new(view, extent);
+        let faces = traced(world, |face| pixels(face, &camera));
+        let step = step.unwrap_or(extent.radius());
+        Ok(Self { camera, extent: *extent, step, volumes, faces })
+    }
+
     fn hits(&self) -> FirstHits {
         let size = self.camera.size;
-        // Of a mesh a row of pixels passes by most faces.
-        let row = |y: usize| {
-            let near: Vec<&Traced> = self.faces.iter().filter(|face| face.is_near(y)).collect();
-            (0..size[0]).map(|x| self.hit([x, y], &near)).collect::<Vec<_>>()
+        let tiles = Tiles::new(size, self.faces.iter().map(|face| face.pixels).collect());
+        let of_tile = |tile: usize| {
+            let near = tiles.near(tile);
+            let hit = |pixel: [usize; 2]| {
+                let held = near.iter().filter(|(_, pixels)| pixels.hold(pixel));
+                self.hit(pixel, held.map(|(at, _)| &self.faces[*at]))
+            };
+            tiles.pixels(tile).map(hit).collect::<Vec<_>>()
         };
-        let hits: Vec<Option<Hit>> = (0..size[1]).into_par_iter().flat_map_iter(row).collect();
-        let of = |hit: &Option<Hit>, value: fn(&Hit) -> f32| hit.as_ref().map_or(f32::NAN, value);
+        let found: Vec<Vec<Option<Hit>>> =
+            (0..tiles.count()).into_par_iter().map(of_tile).collect();
+        let hits = || {
+            let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+            pixels.map(|pixel| {
+                let (tile, within) = tiles.place(pixel);
+                found[tile][within]
+            })
+        };
+        let normal = |hit: Hit| hit.normal.as_vec3().to_array();
         FirstHits {
             size,
-            depth: hits.iter().map(|hit| of(hit, |hit| hit.depth as f32)).collect(),
-            normal: hits
-                .iter()
-                .map(|hit| hit.map_or([0.0; 3], |hit| hit.normal.as_vec3().to_array()))
-                .collect(),
-            entity: hits.iter().map(|hit| hit.map_or(0, |hit| hit.entity)).collect(),
+            depth: hits().map(|hit| hit.map_or(f32::NAN, |hit| hit.depth as f32)).collect(),
+            normal: hits().map(|hit| hit.map_or([0.0; 3], normal)).collect(),
+            entity: hits().map(|hit| hit.map_or(0, |hit| hit.entity)).collect(),
         }
     }
 
     /// What the middle of a pixel shows first; it meets no faces but those `near`.
-    fn hit(&self, [x, y]: [usize; 2], near: &[&Traced]) -> Option<Hit> {
+    fn hit<'a>(&self, [x, y]: [usize; 2], near: impl Iterator<Item = &'a Traced>) -> Option<Hit> {
         let ray = self.camera.ray(glam::DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
         let mut met: Vec<(f64, &Traced)> = near
-            .iter()
-            .filter_map(|face| Some((face.depth(&ray)?, *face)))
+            .filter_map(|face| Some((face.depth(&ray)?, face)))
             .filter(|(depth, _)| *depth >= self.camera.nearest())
             .collect();
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -176,8 +203,13 @@ impl Scene {
         let near = (middle - self.extent.radius()).max(self.camera.nearest());
         let slabs = (2.0 * self.extent.radius() / self.step).ceil().min(1e6) as usize;
         let slabs = if self.volumes.is_empty() { 0 } else { slabs };
-        let mut clear = 1.0;
-        for slab in 0..=slabs {
+        let first = (ray.at(near + self.step / 2.0), ray.along * self.step);
+        let mut passages: Vec<Passage> =
+            self.volumes.iter().map(|volume| volume.room.passage(first)).collect();
+        let (mut slab, mut clear) = (0, 1.0);
+        loop {
+            // What is leapt over lets all through.
+            slab = passages.iter_mut().map(|passage| passage.next(slab)).fold(slabs, usize::min);
             let from = near + slab as f64 * self.step;
             let until = if slab == slabs { f64::INFINITY } else { from + self.step };
             while let Some((depth, face)) = met.next_if(|(depth, _)| *depth < until) {
@@ -187,22 +219,34 @@ impl Scene {
                     return Some(Hit { depth, normal, entity: face.entity });
                 }
             }
-            if slab < slabs
-                && let Some(hit) = self.met_in_slab(&ray, from, &mut clear)
-            {
+            if slab == slabs {
+                return None;
+            }
+            let there = self.volumes.iter().zip(&mut passages);
+            let there = there
+                .filter_map(|(volume, passage)| (passage.next(slab) == slab).then_some(volume));
+            if let Some(hit) = self.met_in_slab((&ray, from), there, &mut clear) {
                 return Some(Hit { normal: facing(hit.normal), ..hit });
             }
+            slab += 1;
         }
-        None
     }
 
-    /// Takes a ray through the volumes in the slab from a depth on: what makes it half opaque there, if anything does.
-    fn met_in_slab(&self, ray: &Ray, from: f64, clear: &mut f64) -> Option<Hit> {
+    /// Takes a ray through some volumes in the slab from a depth on: what makes it half opaque there, if anything does.
+    fn met_in_slab<'a>(
+        &self,
+        (ray, from): (&Ray, f64),
+        volumes: impl Iterator<Item = &'a Volume>,
+        clear: &mut f64,
+    ) -> Option<Hit> {
         let (middle, way) = (ray.at(from + self.step / 2.0), ray.along * self.step);
         let (mut left, mut thickest) = (1.0, (0.0, None));
         let mut surfaces: Vec<(Crossed, &Volume)> = Vec::new();
-        for volume in &self.volumes {
-            let opacity = thicken(volume.opacity(middle, way), way.length() / volume.unit);
+        for volume in volumes {
+            let opacity = volume.opacity(middle, way);
+            // What is clear is so at every thickness.
+            let opacity =
+                if opacity == 0.0 { 0.0 } else { thicken(opacity, way.length() / volume.unit) };
             left *= 1.0 - opacity;
             if opacity > thickest.0 {
                 thickest = (opacity, Some(volume));
@@ -261,3 +305,6 @@ impl Volume {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,10 +2,14 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::tiles::Pixels;
 use crate::polygon::face::Face;
 use crate::polygon::outline::Rings;
 use crate::view::camera::Camera;
 use crate::view::ray::Ray;
+
+/// How far beside where it is drawn a face is looked for, for what is rounded, pixels.
+const ROOM: f64 = 0.25;
 
 /// A polygon, with two axes of its plane.
 pub(super) struct Traced {
@@ -15,17 +19,18 @@ pub(super) struct Traced {
     center: DVec3,
     axes: [DVec3; 2],
     outlines: Rings<[f64; 2]>,
-    /// The rows of pixels that it lies in, from the first to the last; infinite where it reaches behind the eye.
-    rows: [f64; 2],
+    /// Of no others does the middle meet it.
+    pub pixels: Pixels,
     pub opacity: f64,
     pub entity: u32,
 }
 
 impl Traced {
-    /// A face of an entity on a view; `bent` is as of [`over`](crate::polygon::smooth::CornerNormals::over).
+    /// A face of an entity that no pixels meet but those; `bent` is as of
+    /// [`over`](crate::polygon::smooth::CornerNormals::over).
     pub fn new(
         (face, bent): (&Face, Option<DAffine3>),
-        camera: &Camera,
+        pixels: Pixels,
         opacity: f64,
         entity: u32,
     ) -> Self {
@@ -36,14 +41,7 @@ impl Traced {
         };
         let outlines = face.outlines.map(flat);
         let Face { normal, center, .. } = *face;
-        let rows = rows(face, camera);
-        Self { normal, bent, center, axes: [axes.0, axes.1], outlines, rows, opacity, entity }
-    }
-
-    /// Whether the middles of a row of pixels may meet it.
-    pub fn is_near(&self, y: usize) -> bool {
-        let middle = y as f64 + 0.5;
-        self.rows[0] <= middle && middle <= self.rows[1]
+        Self { normal, bent, center, axes: [axes.0, axes.1], outlines, pixels, opacity, entity }
     }
 
     /// How deep a ray meets it.
@@ -72,14 +70,26 @@ impl Traced {
     }
 }
 
-/// Between which heights in the window a face lies, pixels, with room for what is rounded.
-fn rows(face: &Face, camera: &Camera) -> [f64; 2] {
-    let vertices = || face.outlines.vertices();
-    if vertices().any(|vertex| camera.depth(vertex) < camera.nearest()) {
-        return [f64::NEG_INFINITY, f64::INFINITY];
+/// The pixels whose middles may meet a face; `None` where there are none.
+pub(super) fn pixels(face: &Face, camera: &Camera) -> Option<Pixels> {
+    // Vertices may lie a little beside the plane, which is where rays meet it.
+    let flattened = |vertex: DVec3| vertex - face.normal * face.normal.dot(vertex - face.center);
+    let [columns, _] = drawn(face.outlines.vertices().map(flattened), camera);
+    let [_, rows] = drawn(face.outlines.vertices(), camera);
+    Pixels::between([columns, rows], camera.size)
+}
+
+/// Between which window positions a polygon lies, across and down, pixels; infinite where it reaches behind the eye.
+fn drawn(vertices: impl Iterator<Item = DVec3>, camera: &Camera) -> [[f64; 2]; 2] {
+    let mut found = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    for vertex in vertices {
+        let (window, depth) = camera.project(vertex);
+        if depth < camera.nearest() {
+            return [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+        }
+        for ([low, high], place) in found.iter_mut().zip(window.to_array()) {
+            (*low, *high) = (low.min(place - ROOM), high.max(place + ROOM));
+        }
     }
-    let heights = vertices().map(|vertex| camera.project(vertex).0.y);
-    let [low, high] = heights
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
-    [low - 0.25, high + 0.25]
+    found
 }

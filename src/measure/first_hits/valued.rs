@@ -3,6 +3,7 @@
 use fearless_simd::Level;
 use glam::{DAffine3, DVec3};
 
+use super::passage::Sought;
 use crate::components::{Classify, Clip, Filter, Material};
 use crate::view::composite::thicken;
 use crate::volume::classification::{Classifier, SharpContour};
@@ -34,6 +35,8 @@ pub(super) struct Valued {
     pub pyramid: Option<Pyramid>,
     classifier: Classifier,
     surfaces: Vec<SharpContour>,
+    /// Whether anything but surfaces is seen.
+    has_gel: bool,
     /// Whether slabs are integrated from one end to the other.
     integrated: bool,
     cut: Option<Cut>,
@@ -52,6 +55,7 @@ impl Valued {
         let classifier = Classifier::new(classify, material, unit);
         Self {
             surfaces: classifier.surfaces(),
+            has_gel: classifier.has_gel(),
             classifier,
             integrated: false,
             cut: clip.map(|clip| Cut::new(clip, &grid)),
@@ -69,10 +73,19 @@ impl Valued {
         Self { integrated: asked && self.classifier.integrates(), ..self }
     }
 
+    /// Where in a slab it is looked for what that shows; `smooth` says that all values are finite.
+    pub fn sought(&self, smooth: bool) -> Sought {
+        match (self.surfaces.is_empty(), self.integrated) {
+            (true, false) => Sought::AtMiddle,
+            (false, false) if smooth => Sought::BetweenEnds,
+            _ => Sought::AtEnds,
+        }
+    }
+
     /// The opacity of a slab around a world point, per opacity unit; `way` is the ray's way through it.
     pub fn opacity(&self, world: DVec3, way: DVec3) -> f64 {
         let around = self.integrated || !self.surfaces.is_empty();
-        if !self.may_show(world, around.then_some(way)) {
+        if !self.has_gel || !self.may_show(world, around.then_some(way)) {
             return 0.0;
         }
         let Some(sampled) = self.sampled(world) else { return 0.0 };
@@ -106,17 +119,21 @@ impl Valued {
             return Vec::new();
         }
         let at = |part: f64| middle + way * (part - 0.5);
+        let ends = [0.0, 0.5, 1.0];
+        // What the values are is the same for all surfaces.
+        let values = ends.map(|part| self.value(at(part)));
         let mut found = Vec::new();
         for surface in &self.surfaces {
-            for [mut low, mut high] in [[0.0, 0.5], [0.5, 1.0]] {
-                let first = self.side(surface, at(low));
-                if first.is_none_or(|first| self.side(surface, at(high)).is_none_or(|s| s == first))
-                {
+            let sides: [_; 3] = std::array::from_fn(|n| self.side(surface, values[n], at(ends[n])));
+            for half in [0, 1] {
+                let [mut low, mut high] = [ends[half], ends[half + 1]];
+                let first = sides[half];
+                if first.is_none_or(|first| sides[half + 1].is_none_or(|s| s == first)) {
                     continue;
                 }
                 for _ in 0..HALVINGS {
                     let part = f64::midpoint(low, high);
-                    let same = self.side(surface, at(part)) == first;
+                    let same = self.side(surface, self.value(at(part)), at(part)) == first;
                     *(if same { &mut low } else { &mut high }) = part;
                 }
                 let part = f64::midpoint(low, high);
@@ -132,11 +149,9 @@ impl Valued {
         found
     }
 
-    /// Whether a world point is above a surface's value; `None` where there is none. Of a surface that is closed nothing is above
-    /// outside of the grid and where the volume is cut away.
-    fn side(&self, surface: &SharpContour, world: DVec3) -> Option<bool> {
-        let value =
-            self.sampled(world).map(|sampled| sampled.value).filter(|value| !value.is_nan());
+    /// Whether a world point of some value is above a surface's; `None` where there is none. Of a surface that is closed nothing is
+    /// above outside of the grid and where the volume is cut away.
+    fn side(&self, surface: &SharpContour, value: Option<f32>, world: DVec3) -> Option<bool> {
         if !surface.is_capped {
             return value.map(|value| value >= surface.value);
         }
@@ -162,7 +177,25 @@ impl Valued {
         -DVec3::from(gradient.map(f64::from))
     }
 
+    /// The value at a world point; `None` outside and where it is no number.
+    fn value(&self, world: DVec3) -> Option<f32> {
+        let mut made = [0.0];
+        self.field().values(self.level, &[self.spot(world)?], &mut made);
+        Some(made[0]).filter(|value| !value.is_nan())
+    }
+
     fn sampled(&self, world: DVec3) -> Option<Sampled> {
+        let mut made = [Sampled::default()];
+        self.field().sample(self.level, &[self.spot(world)?], &mut made);
+        Some(made[0])
+    }
+
+    fn field(&self) -> Field<'_> {
+        Field::new(&self.scalars, &self.grid, self.filter)
+    }
+
+    /// Where in the grid a world point is; `None` outside.
+    fn spot(&self, world: DVec3) -> Option<Spot> {
         let index = self.to_index.transform_point3(world).to_array();
         let last = self.grid.size.map(|n| n as f64 - 1.0);
         if (0..3).any(|axis| !(0.0..=last[axis]).contains(&index[axis])) {
@@ -170,10 +203,7 @@ impl Valued {
         }
         let cell = index.map(|n| n as usize);
         let part = std::array::from_fn(|axis| (index[axis] - cell[axis] as f64) as f32);
-        let mut made = [Sampled::default()];
-        let field = Field::new(&self.scalars, &self.grid, self.filter);
-        field.sample(self.level, &[Spot { cell, part }], &mut made);
-        Some(made[0])
+        Some(Spot { cell, part })
     }
 
     /// Whether something may be seen at a world point, or within half a `way` of it.
