@@ -44,6 +44,12 @@ impl FaceColors {
     pub fn of(colors: Option<&Self>, at: usize) -> Option<Color> {
         colors.and_then(|colors| colors.0.get(at).copied())
     }
+
+    /// What no channel of any of them is above; at least 0.
+    #[must_use]
+    pub fn brightest(&self) -> f32 {
+        self.0.iter().fold(0.0, |most, color| most.max(color.0.max_element()))
+    }
 }
 
 /// For each of the faces of one entity the part of their surface's opacity that it has, 0..=1.

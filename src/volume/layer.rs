@@ -1,6 +1,7 @@
 //! What stages make of voxels, from the opacity to the matted layer: a product a system, carried by the volume or polygon.
 
 use super::bricks::Bricks;
+use super::voxel_colors::VoxelColors;
 use crate::schedule::Product;
 
 /// α_V of every voxel, 0..=1 per opacity unit, after clipping; bricks without an interesting voxel are not stored.
@@ -14,15 +15,15 @@ pub struct Opacity {
 
 impl Product for Opacity {}
 
-/// What the interesting voxels send towards the observer: linear light, not associated, in the bricks that `Opacity` stores.
+/// What the interesting voxels send towards the observer: linear light, not associated, where the opacity is above 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LitColors {
     /// Ambient and every light that casts no shadow, summed; without ambient where `ambient` is stated apart.
-    pub base: Bricks<[f32; 3]>,
+    pub base: VoxelColors,
     /// One for each light that casts a shadow, in the order of the scene.
-    pub shadowed: Vec<Bricks<[f32; 3]>>,
+    pub shadowed: Vec<VoxelColors>,
     /// Ambient alone, kept apart where a depth cue is stated: it is not cued.
-    pub ambient: Option<Bricks<[f32; 3]>>,
+    pub ambient: Option<VoxelColors>,
 }
 
 impl Product for LitColors {}
@@ -32,7 +33,7 @@ impl Product for LitColors {}
 pub struct Layer {
     /// α, 0..=1 per opacity unit.
     pub opacity: Bricks<f32>,
-    /// c_1 … c_L, in the same bricks.
+    /// c_1 … c_L, where it is above 0.
     pub colors: LitColors,
 }
 

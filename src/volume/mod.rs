@@ -25,3 +25,4 @@ pub mod scene_volumes;
 pub mod seen;
 pub mod texel;
 pub mod texels;
+pub mod voxel_colors;

@@ -70,6 +70,13 @@ impl<'a> Columns<'a> {
         self.shear.interpolate(place, plane, || self.initial(column))
     }
 
+    /// [`strength`](Self::strength) at so many places, each a whole column farther across than the one before; `None` where one
+    /// of them is near the volume's sides.
+    #[inline]
+    pub fn strengths<const N: usize>(&self, place: &Place) -> Option<[f64; N]> {
+        self.shear.interpolate_row(place, |slice| &*self.ring[slice % self.ring.len()])
+    }
+
     /// β_0 of a column.
     fn initial(&self, column: [f64; 2]) -> f64 {
         let slide = |slide: &Slide| {

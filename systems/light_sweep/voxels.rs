@@ -42,6 +42,16 @@ impl Beams<'_> {
         let place = self.place.map(|place| place.moved(voxel));
         self.columns.strength(place.as_ref(), column)
     }
+
+    /// β_0 · T at the voxels of a brick's row, the first of them at `voxel`; where none is looked for, it may be anything.
+    #[inline]
+    fn along(&self, voxel: [usize; 2], is_looked_for: impl Fn(usize) -> bool) -> [f64; EDGE] {
+        let row = self.place.and_then(|place| self.columns.strengths(&place.moved(voxel)));
+        row.unwrap_or_else(|| {
+            let through = |x: usize| self.through([voxel[0] + x, voxel[1]]);
+            std::array::from_fn(|x| if is_looked_for(x) { through(x) } else { 0.0 })
+        })
+    }
 }
 
 impl<'a> Voxels<'a> {
@@ -85,10 +95,16 @@ impl<'a> Voxels<'a> {
             let Some(opacities) = self.opacity.brick(place(shear, [brick, row], slice)) else {
                 continue;
             };
-            for ([x, y], within) in offsets(shear, slice) {
-                if opacities[within] > 0.0 {
-                    let voxel = [brick * EDGE + x, row * EDGE + y];
-                    let through = beams.through(voxel) * self.through(shear, voxel, slice);
+            let (first, [across, down]) = offsets(shear, slice);
+            for y in 0..EDGE {
+                let is_lit = |x: usize| opacities[first + x * across + y * down] > 0.0;
+                if !(0..EDGE).any(is_lit) {
+                    continue;
+                }
+                let voxel = [brick * EDGE, row * EDGE + y];
+                let beams = beams.along(voxel, is_lit);
+                for x in (0..EDGE).filter(|&x| is_lit(x)) {
+                    let through = beams[x] * self.through(shear, [voxel[0] + x, voxel[1]], slice);
                     lit.strengths.push(quantize(through, f64::from(self.full)));
                 }
             }
@@ -106,7 +122,9 @@ impl<'a> Voxels<'a> {
                 let slice = shear.flip(along);
                 let lit = &self.slices[slice][row];
                 let mut strengths = lit.strengths[lit.starts[column] as usize..].iter();
-                for (_, within) in offsets(shear, slice) {
+                let (first, [across, down]) = offsets(shear, slice);
+                for (x, y) in (0..EDGE).flat_map(|y| (0..EDGE).map(move |x| (x, y))) {
+                    let within = first + x * across + y * down;
                     if opacities[within] > 0.0
                         && let Some(&strength) = strengths.next()
                     {
@@ -127,14 +145,10 @@ fn place(shear: &Shear, [x, y]: [usize; 2], slice: usize) -> [usize; 3] {
     place
 }
 
-/// The voxels of a brick in a slice: across and down, and the place in the brick.
+/// Where the voxels of a brick in a slice are in the brick: the first, and the way to the next across and down.
 ///
 /// Voxels beyond the grid are among them; no brick holds an opacity there.
-fn offsets(shear: &Shear, slice: usize) -> impl Iterator<Item = ([usize; 2], usize)> {
+fn offsets(shear: &Shear, slice: usize) -> (usize, [usize; 2]) {
     let [across, down, along] = shear.axes.map(|axis| EDGE.pow(axis as u32));
-    let first = (shear.flip(slice) % EDGE) * along;
-    (0..EDGE * EDGE).map(move |at| {
-        let (x, y) = (at % EDGE, at / EDGE);
-        ([x, y], first + x * across + y * down)
-    })
+    ((shear.flip(slice) % EDGE) * along, [across, down])
 }

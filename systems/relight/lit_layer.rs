@@ -106,6 +106,7 @@ mod tests {
     use crate::volume::gel::{CELLS, EMPTY};
 
     use crate::light::strength::{Receding, VoxelStrength};
+    use crate::volume::voxel_colors::VoxelColors;
 
     const SIZE: [usize; 3] = [20, 17, 10];
 
@@ -120,8 +121,8 @@ mod tests {
         })
     }
 
-    fn colors(opacity: &Bricks<f32>, color: [f32; 3]) -> Bricks<[f32; 3]> {
-        opacity.map(|_, _, made| made.fill(color))
+    fn colors(opacity: &Bricks<f32>, color: [f32; 3]) -> VoxelColors {
+        opacity.map(|_, _, made| made.fill(color)).into()
     }
 
     fn texel(gel: &GelBricks, voxel: [usize; 3]) -> Option<Vec4> {
@@ -144,6 +145,7 @@ mod tests {
                 brick.fill([light, 0.5, 0.0]);
                 true
             });
+            let base = VoxelColors::from(base);
             let sent = Sent::Made { base: &base, shadowed: Vec::new() };
             LitLayer::new(&opacity, sent, &Watch::default()).suited()
         };

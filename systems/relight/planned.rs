@@ -2,10 +2,11 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Classify, Clip, Light, Material, TexelKind};
+use crate::components::{CastsShadow, Classify, Clip, Light, Material, Matte, Surface, TexelKind, Voxelize};
 use crate::light::shading::{Reflectance, lamps};
 use crate::light::strength::ProjectedBy;
 use crate::light::unlit::{brightest_color, most_reflected};
+use crate::polygon::face::FaceColors;
 use crate::polygon::matted::is_matted;
 use crate::polygon::may_hold::MayHold;
 use crate::volume::gel::BRIGHT;
@@ -24,14 +25,15 @@ pub(crate) fn planned(
     held: &MayHold,
     stated: TexelKind,
 ) -> TexelKind {
+    let is_matted = is_matted(world, volume.entity);
     let sure = stated == TexelKind::Auto
-        && !is_matted(world, volume.entity)
         && match volume.content {
             Content::Classified => {
                 let brightest = brightest(world, volume.entity);
-                held.is_opaque() && brightest.is_some_and(|most| most <= BRIGHT - ROUNDED)
+                let stays = held.is_opaque() && !(is_matted && may_be_cut(world));
+                stays && brightest.is_some_and(|most| most <= BRIGHT - ROUNDED)
             }
-            Content::Painted => {
+            Content::Painted if !is_matted => {
                 let mut found = world.query_one::<(&Painted, Option<&Clip>)>(volume.entity);
                 found.get().is_ok_and(|(painted, clip)| {
                     Painting::new(painted, &volume.grid, clip).suited() == TexelKind::U16
@@ -46,8 +48,14 @@ pub(crate) fn planned(
     }
 }
 
-/// What no channel of the colors of a classified volume is above, all lights together and whatever they fall on; `None` if that
-/// is not known beforehand.
+/// Whether a polygon that is scan-converted may take away of what is opaque.
+fn may_be_cut(world: &World) -> bool {
+    let mut query = world.query::<&Voxelize>();
+    query.iter().any(|voxelize| matches!(voxelize.matte, Matte::In | Matte::Out))
+}
+
+/// What no channel of the colors of a classified volume is above, nor of the polygons that are scan-converted, all lights
+/// together and whatever they fall on; `None` if that is not known beforehand.
 fn brightest(world: &World, volume: Entity) -> Option<f32> {
     type Stated<'a> = (&'a Classify, Option<&'a Material>, Option<&'a Tint>);
     // What a slide lets through, or a falloff below 1, may be brighter than the light.
@@ -64,9 +72,19 @@ fn brightest(world: &World, volume: Entity) -> Option<f32> {
     let mut found = world.query_one::<Stated<'_>>(volume);
     let (classify, material, tint) = found.get().ok()?;
     let material = material.cloned().unwrap_or_default();
-    let how = Reflectance::from(&material);
+    let mut how = Reflectance::from(&material);
     let lamps = lamps(world, &how);
+    let mut color = brightest_color(classify, &material, tint);
+    let mut polygons = world.query::<(&Surface, Option<&FaceColors>)>().with::<&Voxelize>();
+    for (surface, own) in &mut polygons {
+        let own = own.map_or(0.0, FaceColors::brightest);
+        color = color.max(surface.color.0.max_element()).max(own);
+        // Each part of what is reflected is no more than the most that any of them has of it.
+        how.ambient = how.ambient.max(surface.ambient);
+        how.diffuse = how.diffuse.max(surface.diffuse);
+        how.specular = how.specular.max(surface.specular);
+    }
     let lamps = lamps.plain.iter().chain(lamps.shadowed.iter().map(|(_, lamp)| lamp));
     let lights: f32 = lamps.map(|lamp| most_reflected(lamp, &how)).sum();
-    Some(brightest_color(classify, &material, tint) * (how.ambient + lights))
+    Some(color * (how.ambient + lights))
 }

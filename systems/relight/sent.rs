@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::light::lit_bricks::{LitBricks, Rows, add};
 use crate::light::strength::VoxelStrength;
 use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
+use crate::volume::voxel_colors::{BrickColors, VoxelColors};
 
 /// Colors of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
@@ -12,9 +13,9 @@ pub(crate) enum Sent<'a> {
     /// Colors that are made, as of a composite.
     Made {
         /// What no shadow weakens.
-        base: &'a Bricks<[f32; 3]>,
+        base: &'a VoxelColors,
         /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
-        shadowed: Vec<(&'a Bricks<[f32; 3]>, Option<&'a VoxelStrength>)>,
+        shadowed: Vec<(&'a VoxelColors, Option<&'a VoxelStrength>)>,
     },
     /// Colors that nobody else asks for.
     Lit(Box<LitBricks<'a>>),
@@ -26,17 +27,19 @@ impl Sent<'_> {
         match self {
             Self::Lit(lights) => lights.fill(place, alpha, sent),
             Self::Made { base, shadowed } => {
-                let brick = place.brick;
-                if let Some(base) = base.brick(brick) {
+                let mut colors = [[0.0; 3]; VOXELS];
+                if base.fill(place, &mut colors) {
                     for (row, sent) in sent.iter_mut().enumerate() {
-                        *sent = channels(base, row);
+                        *sent = channels(&colors, row);
                     }
                 }
                 for (light, strength) in shadowed {
-                    let Some(light) = light.brick(brick) else { continue };
+                    if !light.fill(place, &mut colors) {
+                        continue;
+                    }
                     for (row, sent) in sent.iter_mut().enumerate() {
-                        let betas = VoxelStrength::row(*strength, brick, row);
-                        add(sent, &channels(light, row), betas);
+                        let betas = VoxelStrength::row(*strength, place.brick, row);
+                        add(sent, &channels(&colors, row), betas);
                     }
                 }
             }
@@ -52,8 +55,7 @@ impl Sent<'_> {
         };
         let bricks: Vec<_> = opacity.stored().map(|(place, _)| place).collect();
         let most = |place: &BrickPlace| {
-            let channel =
-                |bricks: &Bricks<[f32; 3]>| bricks.brick(place.brick).map_or(0.0, brightest);
+            let channel = |colors: &VoxelColors| colors.brightest(*place);
             let full = |strength: Option<&VoxelStrength>| strength.map_or(1.0, VoxelStrength::most);
             let shadowed = shadowed.iter();
             let shadowed: f32 = shadowed.map(|(light, beta)| channel(light) * full(*beta)).sum();
@@ -66,17 +68,7 @@ impl Sent<'_> {
 /// A row of colors, channel by channel.
 #[allow(clippy::inline_always, reason = "compiled anew within each instruction set")]
 #[inline(always)]
-fn channels(colors: &[[f32; 3]; VOXELS], row: usize) -> [[f32; EDGE]; 3] {
+fn channels(colors: &BrickColors, row: usize) -> [[f32; EDGE]; 3] {
     let colors = &colors.as_chunks::<EDGE>().0[row];
     std::array::from_fn(|channel| std::array::from_fn(|at| colors[at][channel]))
-}
-
-/// The greatest channel of a brick's colours, at least 0.
-fn brightest(colors: &[[f32; 3]; VOXELS]) -> f32 {
-    // Eight at a time, so that they are compared in lanes.
-    let eights = colors.as_flattened().chunks_exact(8);
-    let most = eights.fold([0.0; 8], |most: [f32; 8], eight| {
-        std::array::from_fn(|i| if eight[i] > most[i] { eight[i] } else { most[i] })
-    });
-    most.into_iter().fold(0.0, f32::max)
 }

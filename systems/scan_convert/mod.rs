@@ -16,6 +16,7 @@ use crate::volume::bricks::{Bricks, VOXELS};
 use crate::volume::grid::Grid;
 use crate::volume::layer::{Coverage, Layer, LitColors};
 use crate::volume::scene_volumes::{around, volumes};
+use crate::volume::voxel_colors::VoxelColors;
 
 /// Makes the [`Coverage`] of every polygon that carries `voxelize`, in the grid of the volume that it is in; and where a light
 /// casts shadows, that of the hybrid tracer's polygons too: they cast theirs by it.
@@ -109,19 +110,22 @@ impl System for ScanConvert {
         }
         let (apart, shadows) = (usize::from(observer::is_cued(world)), casts_shadows(world));
         let colors = 1 + apart + Lamps::of(world, DVec3::ZERO).shadowed.len();
-        let brick = (VOXELS * (size_of::<f32>() + colors * size_of::<[f32; 3]>())) as u64;
+        // A face is of one color, which is not kept voxel by voxel.
+        let brick =
+            |colors: usize| (VOXELS * (size_of::<f32>() + colors * size_of::<[f32; 3]>())) as u64;
         let mut query = world.query::<(Entity, &Faces, Option<&Voxelize>)>().with::<&Surface>();
         let makes: Vec<_> = query
             .iter()
             .filter(|(_, _, voxelize)| voxelize.is_some() || shadows)
-            .filter_map(|(entity, faces, _)| {
+            .filter_map(|(entity, faces, voxelize)| {
+                let colors = if voxelize.is_some() && faces.0.len() > 1 { colors } else { 0 };
                 let grid = around(&volumes, || faces.middle())?.grid;
                 let table = grid.size.iter().map(|n| n.div_ceil(8) as u64).product::<u64>();
                 let flats = faces.0.par_iter().filter_map(|face| Flat::new(face, &grid));
                 // A brick near several faces is stored once.
                 let bricks =
                     flats.map(|flat| flat.bricks(REACH, grid.size).len() as u64).sum::<u64>();
-                Some((entity, bricks.min(table) * brick + table * 4 * (1 + colors as u64)))
+                Some((entity, bricks.min(table) * brick(colors) + table * 4 * (1 + colors as u64)))
             })
             .collect();
         if makes.is_empty() {
@@ -149,15 +153,16 @@ impl Inputs {
         )?;
         let ball = Ball::stated(&self.surface, &self.voxelize, self.unit, &self.grid, &flats);
         let covered = Covered::new(faces, &flats, &ball, self.grid.size);
-        let (opacity, colors) = rayon::join(|| covered.opacity(), || self.colors(&covered));
+        let opacity = covered.opacity();
+        let colors = self.colors(&covered, &opacity);
         Ok(Coverage(Layer { opacity, colors }))
     }
 
     /// The colours: directional lights shade a face alike all over, so it is shaded once.
-    fn colors(&self, covered: &Covered) -> LitColors {
+    fn colors(&self, covered: &Covered, opacity: &Bricks<f32>) -> LitColors {
+        let alike = |color: Vec3| VoxelColors::alike(color, opacity.clone());
         if self.colorless {
-            let nothing = Bricks::make(self.grid.size, |_, _| false);
-            return LitColors { base: nothing, shadowed: Vec::new(), ambient: None };
+            return LitColors { base: alike(Vec3::ZERO), shadowed: Vec::new(), ambient: None };
         }
         let how = Reflectance::from(&self.surface);
         let bricks = |of_face: &(dyn Fn(Vec3, Vec3) -> Vec3 + Sync)| {
@@ -165,7 +170,10 @@ impl Inputs {
                 let own = FaceColors::of(self.own.as_ref(), at);
                 of_face(face.normal.as_vec3(), own.unwrap_or(self.surface.color).0)
             };
-            covered.colors(&self.faces.0.iter().enumerate().map(shade).collect::<Vec<_>>())
+            match &self.faces.0.iter().enumerate().map(shade).collect::<Vec<_>>()[..] {
+                [color] => alike(*color),
+                colors => covered.colors(colors).into(),
+            }
         };
         let in_base = if self.ambient_apart { 0.0 } else { how.ambient };
         let plain = &self.lamps.plain;

@@ -55,7 +55,7 @@ impl System for Shade {
 }
 
 fn shade(unlit: &Unlit, watch: &Watch) -> LitColors {
-    let colors = |lit: LitBricks<'_>| per_voxel(unlit, &lit, watch);
+    let colors = |lit: LitBricks<'_>| per_voxel(unlit, &lit, watch).into();
     LitColors {
         base: colors(LitBricks::base(unlit)),
         shadowed: LitBricks::unshadowed(unlit).into_iter().map(colors).collect(),

@@ -5,11 +5,11 @@ use gelray::scene::EMBEDDED;
 use gelray::systems::JOBS;
 use gelray::view::picture::Frame;
 use gelray::view::samples::Samples;
-use gelray::volume::bricks::Bricks;
 use gelray::volume::gel::Gel;
 use gelray::volume::layer::{LitColors, Opacity};
 use gelray::volume::pyramid::Pyramid;
 use gelray::volume::ranges::Ranges;
+use gelray::volume::voxel_colors::VoxelColors;
 use hecs::EntityRef;
 
 use super::support::{Shown, assert_sound, rendered, run};
@@ -24,7 +24,7 @@ fn taken(entity: EntityRef<'_>, system: &str) -> Option<u64> {
         "classify" => bytes(entity, |made: &Opacity| made.voxels.bytes()),
         "shade" => bytes(entity, |made: &LitColors| {
             let apart = made.shadowed.iter().chain(&made.ambient);
-            made.base.bytes() + apart.map(Bricks::bytes).sum::<u64>()
+            made.base.bytes() + apart.map(VoxelColors::bytes).sum::<u64>()
         }),
         "relight" => bytes(entity, |made: &Gel| {
             made.lit.bytes()

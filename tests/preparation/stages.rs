@@ -164,7 +164,7 @@ fn a_composite_takes_the_place_of_the_volume_s_own_colors() {
     prepare(&mut world);
     let opacity = world.get::<&Opacity>(volume).unwrap().voxels.clone();
     let base = opacity.map(|_, _, made| made.fill([0.25, 0.5, 1.0]));
-    let colors = LitColors { base, shadowed: Vec::new(), ambient: None };
+    let colors = LitColors { base: base.into(), shadowed: Vec::new(), ambient: None };
     world.insert_one(volume, Composite(Layer { opacity: opacity.clone(), colors })).unwrap();
     prepare(&mut world);
     let gel = world.get::<&Gel>(volume).unwrap();

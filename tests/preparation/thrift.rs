@@ -11,6 +11,7 @@ use gelray::volume::grid::{Grid, Painted};
 use gelray::volume::layer::{LitColors, Opacity};
 use gelray::volume::pyramid::Pyramid;
 use gelray::volume::ranges::Ranges;
+use gelray::volume::voxel_colors::VoxelColors;
 use hecs::{Entity, World};
 
 use super::{
@@ -127,7 +128,7 @@ fn taken(world: &World, stage: &str, entity: Entity) -> Option<u64> {
         "classify" => world.get::<&Opacity>(entity).ok().map(|made| made.voxels.bytes()),
         "shade" => world.get::<&LitColors>(entity).ok().map(|made| {
             let apart = made.shadowed.iter().chain(&made.ambient);
-            made.base.bytes() + apart.map(gelray::volume::bricks::Bricks::bytes).sum::<u64>()
+            made.base.bytes() + apart.map(VoxelColors::bytes).sum::<u64>()
         }),
         "relight" => world.get::<&Gel>(entity).ok().map(|made| {
             made.lit.bytes()

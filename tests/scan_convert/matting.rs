@@ -25,7 +25,8 @@ fn scene(opacity: f32, matte: Matte, alpha: f32) -> (World, Entity) {
     let mut scene = world(cube(SIZE));
     let volume = scene.query::<(Entity, &Grid)>().iter().next().unwrap().0;
     let color = if opacity > 0.0 { GREEN } else { Vec3::ZERO };
-    let colors = LitColors { base: filled(color.to_array()), shadowed: Vec::new(), ambient: None };
+    let base = filled(color.to_array()).into();
+    let colors = LitColors { base, shadowed: Vec::new(), ambient: None };
     let layer = (Opacity { voxels: filled(opacity), nan_voxels: 0 }, colors);
     scene.insert(volume, layer).unwrap();
     let face = rectangle(DVec3::splat(12.0), DVec3::Z, 9.0);
@@ -84,7 +85,7 @@ fn composites_are_finite_in_range_and_black_where_clear_for_every_operator_and_o
             let (mut scene, _) = scene(v, matte, g);
             run(&mut scene).unwrap();
             let layer = composite(&scene).0;
-            for (place, brick) in layer.colors.base.stored() {
+            for (place, brick) in layer.colors.base.bricks().stored() {
                 for (at, voxel) in place.voxels() {
                     let (alpha, color) = (layer.opacity.value(voxel), Vec3::from(brick[at]));
                     assert!((0.0..=1.0).contains(&alpha) && color.is_finite());

@@ -92,8 +92,8 @@ fn a_closed_surface_of_many_faces_is_as_opaque_as_stated_from_every_side_and_on_
     let layer = covered(1);
     for other in [2, 7].map(covered) {
         let bricks = |layer: &Layer| -> Vec<_> {
-            let colors =
-                layer.colors.base.stored().map(|(_, brick)| brick.map(|c| c.map(f32::to_bits)));
+            let colors = layer.colors.base.bricks();
+            let colors = colors.stored().map(|(_, brick)| brick.map(|c| c.map(f32::to_bits)));
             layer.opacity.stored().map(|(p, b)| (p, b.map(f32::to_bits))).zip(colors).collect()
         };
         assert!(bricks(&layer) == bricks(&other));

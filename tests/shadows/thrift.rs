@@ -67,8 +67,8 @@ fn hybrid_polygons_cast_shadows_and_receive_them() {
     let mut scene = Scene::new(cubes(size), [0.0, 0.0, 1.0], NO_BIAS, plain);
     assert!(scene.sweep().buffers.is_empty());
     let sheet = bricks(size, |v| if v[2] == 11 { 0.5 } else { 0.0 });
-    let colors =
-        LitColors { base: Bricks::make(size, |_, _| false), shadowed: vec![], ambient: None };
+    let base = Bricks::make(size, |_, _| false).into();
+    let colors = LitColors { base, shadowed: vec![], ambient: None };
     let coverage = Coverage(Layer { opacity: sheet, colors });
     let polygon = scene.world.spawn((square(), coverage, Order(2)));
     let strength = scene.sweep();

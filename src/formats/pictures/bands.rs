@@ -7,7 +7,7 @@ use rayon::prelude::*;
 const BAND: usize = 1 << 18;
 
 /// How hard a band is deflated: the least that still finds repetitions, for a picture must not wait for its file.
-pub(super) const LEVEL: Compression = Compression::new(1);
+pub(super) const LEVEL: Compression = Compression::new(2);
 
 /// The parts of one zlib stream over the filtered rows of a picture, in order; the same for any number of threads.
 ///

@@ -46,6 +46,12 @@ impl Falloff {
     pub const NONE: Self =
         Self { along: DVec3::ZERO, enter: 0.0, k1: 1.0, k2: 0.0, range: [0.0; 2] };
 
+    /// Whether the light does not fall off: then every divisor is 1.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.k1 == 1.0 && self.k2 == 0.0
+    }
+
     /// Distance `d` of a world point, before it is held within the volume.
     #[must_use]
     #[inline]

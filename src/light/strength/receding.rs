@@ -35,6 +35,12 @@ impl Receding {
         self.falloff.divisor(self.first + x as f64 * px + y as f64 * py + z as f64 * pz)
     }
 
+    /// Whether the light does not fall off: then every divisor is 1.
+    #[must_use]
+    pub fn is_nothing(&self) -> bool {
+        self.falloff.is_none()
+    }
+
     /// The least divisor of any voxel.
     #[must_use]
     pub fn least(&self) -> f64 {

@@ -78,6 +78,55 @@ impl Shear {
         }
     }
 
+    /// [`interpolate`](Self::interpolate) at so many places, each a whole column farther across than the one before; `None` where
+    /// one of them is not amid the kept columns.
+    #[inline]
+    #[must_use]
+    pub fn interpolate_row<'a, T: Copy + Into<f64> + 'a, const N: usize>(
+        &self,
+        place: &Place,
+        plane: impl Fn(usize) -> &'a [T],
+    ) -> Option<[f64; N]> {
+        let Place { lower, upper } = place;
+        let mut values = self.row_across(lower, plane(lower.slice))?;
+        if let Some((part, upper)) = upper {
+            let behind: [f64; N] = self.row_across(upper, plane(upper.slice))?;
+            for n in 0..N {
+                values[n] += part * (behind[n] - values[n]);
+            }
+        }
+        Some(values)
+    }
+
+    #[inline]
+    fn row_across<T: Copy + Into<f64>, const N: usize>(
+        &self,
+        near: &Near,
+        plane: &[T],
+    ) -> Option<[f64; N]> {
+        let ([width, height], [x, y]) = (self.width(), near.low);
+        let [u, v] = near.part;
+        let inner = |first: i64, count: usize, width: usize| {
+            first > 0 && first.saturating_add(count as i64) < width as i64 - 1
+        };
+        if !(inner(x, N, width) && inner(y, 1, height)) {
+            return None;
+        }
+        let first = y as usize * width + x as usize;
+        let (low, high) = (plane.get(first..=first + N)?, plane.get(first + width..)?);
+        let (low, high) = (low, high.get(..=N)?);
+        let mut values = [0.0; N];
+        for n in 0..N {
+            let row = |plane: &[T]| -> f64 {
+                let (low, high): (f64, f64) = (plane[n].into(), plane[n + 1].into());
+                low + u * (high - low)
+            };
+            let (low, high) = (row(low), row(high));
+            values[n] = low + v * (high - low);
+        }
+        Some(values)
+    }
+
     #[inline]
     fn across<T: Copy + Into<f64>>(
         &self,
