@@ -58,7 +58,7 @@ const ROWS: [Row; 10] = [
         claim: "in proportion to voxels (§7): 3",
         sizes: &[64, 96, 128, 192, 256, 384],
         of: |n| seen(ball(n, 1.0), 64, Sampling::default()),
-        timed: &["ranges", "classify", "shade", "relight", "pyramid"],
+        timed: &["ranges", "classify", "relight", "pyramid"],
     },
     Row {
         what: "voxels across, the frame",

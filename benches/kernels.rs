@@ -11,7 +11,7 @@ use gelray::schedule::{Made, Product, Schedule, Watch};
 use gelray::systems::JOBS;
 use gelray::view::composite::thicken;
 use gelray::volume::gel::{CELLS, GelBricks};
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 use gelray::volume::pyramid::Pyramid;
 use gelray::volume::ranges::Ranges;
 use gelray::with_texels;
@@ -122,10 +122,10 @@ fn classify(bencher: Bencher) {
     stage::<Opacity>(bencher, "classify");
 }
 
-/// Colors are kept where polygons are matted with them.
+/// Voxels are matted with a polygon's on the way.
 #[divan::bench]
-fn shade(bencher: Bencher) {
-    stage_of::<LitColors>(bencher, &format!("{BALL}{SQUARE}"), "shade");
+fn relight_matted(bencher: Bencher) {
+    stage_of::<gelray::volume::gel::Gel>(bencher, &format!("{BALL}{SQUARE}"), "relight");
 }
 
 #[divan::bench]

@@ -75,10 +75,9 @@
 //! | `scene`, `formats` | [`grid::Scalars`] in the file's own number type, [`grid::Grid`] | a file, or a [`phantom`] made by formula |
 //! | `ranges` | between which scalars each brick lies, once a volume | [`ranges`] |
 //! | `classify` | α_V, in [`bricks`] stored only where something is interesting; no others are looked at that [`ranges`] rules out, nor those [`buried`](volume) in what is opaque | [`gradients`], [`classification`], [`clipping`] |
-//! | `shade` | c_i, one for each shadowed light and one for all others, where polygons are matted with them | [`gradients`] again, [`shading`] |
 //! | `scan_convert`, `matte` | c_G and α_G of polygons that state `voxelize`; α_C, and c_C a brick at a time where `relight` asks for it (§3, figure 4) | [`coverage`], [`voxel_colors`] |
 //! | `light_sweep` | β of each light that casts a shadow (§4, figure 5) | [`strength`] |
-//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4); voxels are lit on the way where no colors are kept | `lit_layer`, [`shading`]; [`painting`] for RGBA volumes |
+//! | `relight` | [`gel`]: c_T · α and α in 8³-cell bricks (equation 4); voxels are lit on the way, light by light, and matted with what polygons send | `lit_layer`, [`gradients`] again, [`shading`]; [`painting`] for RGBA volumes |
 //! | `pyramid` | which cells are interesting, and how far away the nearest is (§6) | [`pyramid`] |
 //!
 //! A volume that states `reconstruct = "values"` walks a shorter way: of it only `ranges` and `pyramid` are made, the bits of

@@ -16,7 +16,6 @@ stages! {
     ranges::FindRanges,
     prefilter::Prefilter,
     classify::ClassifyVoxels,
-    shade::Shade,
     scan_convert::ScanConvert,
     matte::MattePolygons,
     light_sweep::LightSweep,

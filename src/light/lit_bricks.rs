@@ -1,5 +1,7 @@
 //! Voxels under their lights, brick by brick: `c_i` of equation 4, and its sum `Σ c_i β_i`.
 
+use std::sync::Arc;
+
 use fearless_simd::{Level, dispatch};
 use glam::Vec4;
 
@@ -7,11 +9,12 @@ use super::shading::{Lamp, Reflectance};
 use super::side_by_side::{self, Lighting, Vectors};
 use super::strength::VoxelStrength;
 use super::unlit::{Unlit, brightest_color, most_reflected};
-use crate::volume::bricks::{BrickPlace, EDGE, VOXELS};
+use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
 use crate::volume::classification::Classifier;
 use crate::volume::clipping::Cut;
 use crate::volume::gradients::Gradients;
 use crate::volume::grid::Scalar;
+use crate::volume::voxel_colors::{BrickColors, ColorSource};
 use crate::with_scalars;
 
 /// Voxels under a cut that are shaded by its normal alone: those between which the opacity rises, and the next.
@@ -28,16 +31,16 @@ pub(crate) type Rows = [Row; EDGE * EDGE];
 pub(crate) const DARK: Rows = [[[0.0; EDGE]; 3]; EDGE * EDGE];
 
 /// A light that casts a shadow, and what is left of it; `None` is β = 1.
-#[derive(Debug, Clone, Copy)]
-struct Shadowed<'a> {
-    lamp: &'a Lamp,
-    strength: Option<&'a VoxelStrength>,
+#[derive(Debug, Clone)]
+struct Shadowed {
+    lamp: Lamp,
+    strength: Option<VoxelStrength>,
 }
 
 /// The voxels of a volume under some of its lights.
 #[derive(Debug)]
-pub(crate) struct LitBricks<'a> {
-    unlit: &'a Unlit,
+pub(crate) struct LitBricks {
+    unlit: Arc<Unlit>,
     classifier: Classifier,
     gradients: Gradients,
     cut: Option<Cut>,
@@ -46,50 +49,51 @@ pub(crate) struct LitBricks<'a> {
     /// Of its color, what a voxel sends whatever falls on it.
     ambient: f32,
     /// Lights that nothing weakens.
-    plain: Vec<&'a Lamp>,
+    plain: Vec<Lamp>,
     /// Those that something may.
-    shadowed: Vec<Shadowed<'a>>,
+    shadowed: Vec<Shadowed>,
 }
 
-impl<'a> LitBricks<'a> {
+impl LitBricks {
     /// Under the lights that cast no shadow, and ambient light unless that is kept apart.
     #[must_use]
-    pub fn base(unlit: &'a Unlit) -> Self {
+    pub fn base(unlit: &Arc<Unlit>) -> Self {
         let ambient = if unlit.apart { 0.0 } else { unlit.material.ambient };
-        Self::new(unlit, ambient, unlit.lamps.plain.iter().collect())
+        Self::new(unlit, ambient, unlit.lamps.plain.clone())
     }
 
     /// Under each light that casts a shadow, as if it cast none.
     #[must_use]
-    pub fn unshadowed(unlit: &'a Unlit) -> Vec<Self> {
+    pub fn unshadowed(unlit: &Arc<Unlit>) -> Vec<Self> {
         let lamps = unlit.lamps.shadowed.iter();
-        lamps.map(|(_, lamp)| Self::new(unlit, 0.0, vec![lamp])).collect()
+        lamps.map(|(_, lamp)| Self::new(unlit, 0.0, vec![*lamp])).collect()
     }
 
     /// Under ambient light alone, where that is kept apart.
     #[must_use]
-    pub fn ambient(unlit: &'a Unlit) -> Option<Self> {
+    pub fn ambient(unlit: &Arc<Unlit>) -> Option<Self> {
         unlit.apart.then(|| Self::new(unlit, unlit.material.ambient, Vec::new()))
     }
 
     /// Under all lights, each as strong as it still is, with ambient light as in [`base`](Self::base); `strengths` of those
     /// that cast shadows are in the order of the scene, and `None` is β = 1.
     #[must_use]
-    pub fn shadowed(unlit: &'a Unlit, strengths: &'a [Option<VoxelStrength>]) -> Self {
-        let strength = |at: usize| strengths.get(at).and_then(Option::as_ref);
+    pub fn shadowed(unlit: &Arc<Unlit>, strengths: &[Option<VoxelStrength>]) -> Self {
+        let strength = |at: usize| strengths.get(at).cloned().flatten();
         let shadowed = unlit.lamps.shadowed.iter().enumerate();
-        let shadowed = shadowed.map(|(at, (_, lamp))| Shadowed { lamp, strength: strength(at) });
+        let shadowed =
+            shadowed.map(|(at, (_, lamp))| Shadowed { lamp: *lamp, strength: strength(at) });
         Self { shadowed: shadowed.collect(), ..Self::base(unlit) }
     }
 
-    fn new(unlit: &'a Unlit, ambient: f32, plain: Vec<&'a Lamp>) -> Self {
+    fn new(unlit: &Arc<Unlit>, ambient: f32, plain: Vec<Lamp>) -> Self {
         Self {
             classifier: Classifier::new(&unlit.classify, &unlit.material, unlit.unit.0),
             gradients: Gradients::new(&unlit.grid),
             cut: unlit.clip.as_ref().map(|clip| Cut::new(clip, &unlit.grid)),
             level: Level::new(),
             how: Reflectance::from(&unlit.material),
-            unlit,
+            unlit: Arc::clone(unlit),
             ambient,
             plain,
             shadowed: Vec::new(),
@@ -99,14 +103,20 @@ impl<'a> LitBricks<'a> {
     /// What no channel of any voxel is above.
     #[must_use]
     pub fn brightest(&self) -> f32 {
-        let Unlit { classify, material, tint, .. } = self.unlit;
+        let Unlit { classify, material, tint, .. } = &*self.unlit;
         let plain = self.plain.iter().map(|lamp| most_reflected(lamp, &self.how));
         let shadowed = self.shadowed.iter().map(|light| {
-            let strength = light.strength.map_or(1.0, VoxelStrength::most);
-            most_reflected(light.lamp, &self.how) * strength
+            let strength = light.strength.as_ref().map_or(1.0, VoxelStrength::most);
+            most_reflected(&light.lamp, &self.how) * strength
         });
         let lights = self.ambient + plain.chain(shadowed).sum::<f32>();
         brightest_color(classify, material, tint.as_ref()) * lights
+    }
+
+    /// α_V of the volume.
+    #[must_use]
+    pub fn opacity(&self) -> &Bricks<f32> {
+        &self.unlit.opacity.voxels
     }
 
     /// Lights the voxels of the brick at `place` that have an opacity `alpha` above 0.
@@ -148,11 +158,12 @@ impl<'a> LitBricks<'a> {
             let colors = self.colors(&values[from..][..n], &gradients, from);
             *lit = plain.sent(&colors, &normals);
             for light in &self.shadowed {
-                let alone = Lighting { ambient: 0.0, lamps: &[light.lamp], how: self.how };
+                let lamps = std::slice::from_ref(&light.lamp);
+                let alone = Lighting { ambient: 0.0, lamps, how: self.how };
                 add(
                     lit,
                     &alone.sent(&colors, &normals),
-                    VoxelStrength::row(light.strength, place.brick, row),
+                    VoxelStrength::row(light.strength.as_ref(), place.brick, row),
                 );
             }
         }
@@ -175,6 +186,27 @@ impl<'a> LitBricks<'a> {
             side_by_side::set(&mut colors, at, tinted);
         }
         colors
+    }
+}
+
+impl ColorSource for LitBricks {
+    fn fill(&self, place: BrickPlace, colors: &mut BrickColors) -> bool {
+        let Some(alpha) = self.opacity().brick(place.brick) else { return false };
+        let mut lit = DARK;
+        Self::fill(self, place, alpha, &mut lit);
+        for (at, color) in colors.iter_mut().enumerate() {
+            let own = side_by_side::one(&lit[at / EDGE], at % EDGE).to_array();
+            *color = if alpha[at] > 0.0 { own } else { [0.0; 3] };
+        }
+        true
+    }
+
+    fn brightest(&self, place: BrickPlace) -> f32 {
+        self.opacity().brick(place.brick).map_or(0.0, |_| Self::brightest(self))
+    }
+
+    fn bytes(&self) -> u64 {
+        0
     }
 }
 

@@ -55,7 +55,7 @@ pub(crate) fn normals<const N: usize>(gradients: &Vectors<N>) -> Vectors<N> {
 pub(crate) struct Lighting<'a> {
     /// Of its color, what a voxel sends whatever falls on it.
     pub ambient: f32,
-    pub lamps: &'a [&'a Lamp],
+    pub lamps: &'a [Lamp],
     pub how: Reflectance,
 }
 
@@ -161,7 +161,6 @@ mod tests {
                 let toward = Toward::Direction(*toward);
                 Lamp::new(&Light { toward, strength: *strength, color: Color::WHITE }, DVec3::NEG_Y)
             }).collect();
-            let lamps: Vec<&Lamp> = lamps.iter().collect();
             let color = Vec3::new(1.0, tint, 0.3);
             let (mut row, colors): (Vectors<8>, Vectors<8>) = ([[0.0; 8]; 3], all(color));
             gradients.iter().enumerate().for_each(|(at, gradient)| set(&mut row, at, Vec3::from(*gradient)));

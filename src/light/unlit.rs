@@ -1,5 +1,7 @@
 //! Volumes that are classified and not yet lit: all that the light from their voxels depends on, but for shadows.
 
+use std::sync::Arc;
+
 use hecs::{Entity, World};
 
 use super::shading::{Lamp, Lamps, Reflectance, lamps};
@@ -28,7 +30,7 @@ pub(crate) struct Unlit {
 impl Unlit {
     /// All that are classified so far.
     #[must_use]
-    pub fn all(world: &World) -> Vec<(Entity, Self)> {
+    pub fn all(world: &World) -> Vec<(Entity, Arc<Self>)> {
         type Volume<'a> = (
             Entity,
             &'a Scalars,
@@ -62,7 +64,7 @@ impl Unlit {
                 clip: clip.cloned(),
                 apart,
             };
-            all.push((entity, unlit));
+            all.push((entity, Arc::new(unlit)));
         }
         all
     }

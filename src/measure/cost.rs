@@ -15,10 +15,9 @@ pub struct PaperCost {
 pub const FRAME: [&str; 2] = ["cast", "resample"];
 
 /// The seconds of the paper's §7, stage by stage. It states none for gradients (a part of shading) and shadows.
-pub static PAPER: [PaperCost; 8] = [
+pub static PAPER: [PaperCost; 7] = [
     PaperCost { stage: "classify", seconds: 60.0, what: "classifying" },
-    PaperCost { stage: "shade", seconds: 60.0, what: "shading" },
-    PaperCost { stage: "relight", seconds: 60.0, what: "shading, unless apart" },
+    PaperCost { stage: "relight", seconds: 60.0, what: "shading" },
     PaperCost { stage: "scan_convert", seconds: 1.0, what: "a polygon" },
     PaperCost { stage: "pyramid", seconds: 60.0, what: "pyramid construction" },
     PaperCost { stage: "frame", seconds: 50.0, what: "volume alone" },
@@ -111,5 +110,5 @@ pub static PAPER_NUMBERS: [PaperNumber; 7] = [
 ];
 
 /// The stages that make the total voxel colors c_T: what shadows double (§7).
-pub const COLORS: [&str; 7] =
-    ["ranges", "classify", "shade", "scan_convert", "matte", "light_sweep", "relight"];
+pub const COLORS: [&str; 6] =
+    ["ranges", "classify", "scan_convert", "matte", "light_sweep", "relight"];

@@ -36,7 +36,6 @@ pub fn held(world: &World, stage: &str) -> Option<Held> {
             bytes(sum(world, |c: &Coefficients| c.values.len() as u64 * size_of::<f32>() as u64))
         }
         "classify" => classified(world),
-        "shade" => bytes(sum(world, of_colors)),
         "scan_convert" => {
             with("polygons", count::<Coverage>(world), sum(world, |c: &Coverage| of_layer(&c.0)))
         }

@@ -48,6 +48,6 @@ mod tests {
             7
         });
         assert_eq!((done, rows.len(), rows[0].name.as_str()), (7, 1, "cast"));
-        assert!(seconds_of(&rows, &["cast"]) > 0.0 && seconds_of(&rows, &["shade"]) == 0.0);
+        assert!(seconds_of(&rows, &["cast"]) > 0.0 && seconds_of(&rows, &["relight"]) == 0.0);
     }
 }

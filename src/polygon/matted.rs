@@ -6,8 +6,7 @@ use super::face::Faces;
 use crate::components::{Surface, Voxelize};
 use crate::volume::scene_volumes::{SceneVolume, around, volumes};
 
-/// The volumes that polygons are scan-converted into, in the order of the scene: colors of their voxels are kept, to be matted
-/// with those of the polygons; voxels of others are lit as gel is made of them.
+/// The volumes that polygons are scan-converted into, in the order of the scene.
 #[must_use]
 pub(crate) fn matted(world: &World) -> Vec<SceneVolume> {
     let mut volumes = volumes(world);

@@ -26,8 +26,6 @@ pub struct LitColors {
     pub ambient: Option<VoxelColors>,
 }
 
-impl Product for LitColors {}
-
 /// An opacity and a colour at every voxel: a volume, a scan-converted polygon, or both matted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {

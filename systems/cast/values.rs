@@ -44,7 +44,7 @@ pub struct Values<'a> {
     cut: Option<Cut>,
     lamps: &'a Lamps,
     /// All of them, in the order in which they are summed.
-    all_lamps: Vec<&'a Lamp>,
+    all_lamps: Vec<Lamp>,
     how: Reflectance,
     strengths: &'a [Option<LightStrength>],
 }
@@ -85,7 +85,12 @@ impl<'a> Values<'a> {
             to_world: grid.index_to_world.matrix3.inverse().transpose(),
             cut: clip.as_ref().map(|clip| Cut::new(clip, grid)),
             lamps,
-            all_lamps: lamps.plain.iter().chain(lamps.shadowed.iter().map(|(_, l)| l)).collect(),
+            all_lamps: lamps
+                .plain
+                .iter()
+                .chain(lamps.shadowed.iter().map(|(_, l)| l))
+                .copied()
+                .collect(),
             how: Reflectance::from(material),
             strengths,
         }

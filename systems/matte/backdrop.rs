@@ -1,20 +1,24 @@
 //! What polygons are matted with: a volume, brick by brick.
 
+use std::sync::Arc;
+
 use glam::Vec4;
 use hecs::{Entity, World};
 
 use crate::components::Clip;
-use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
+use crate::light::lit_bricks::LitBricks;
+use crate::light::unlit::Unlit;
+use crate::volume::bricks::{BrickPlace, EDGE, VOXELS};
 use crate::volume::grid::{Grid, Painted};
-use crate::volume::layer::{LitColors, Opacity};
+use crate::volume::layer::LitColors;
 use crate::volume::painting::Painting;
-use crate::volume::voxel_colors::{BrickColors, VoxelColors, brightest};
+use crate::volume::voxel_colors::{BrickColors, VoxelColors};
 
 /// What a polygon is matted with.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Backdrop {
-    /// Classified and shaded here.
-    Made(Bricks<f32>, LitColors),
+    /// Classified here, and lit where it is asked for.
+    Classified(Arc<Unlit>),
     /// Came classified and shaded: no light of the scene changes its colours.
     Painted(Painted, Option<Clip>),
     /// Neither: the polygons are alone.
@@ -30,22 +34,31 @@ pub(super) enum Channel {
 }
 
 impl Backdrop {
-    /// That of a volume, as far as it is made.
-    pub fn of(world: &World, entity: Entity) -> Self {
-        let opacity = world.get::<&Opacity>(entity).ok();
-        let colors = world.get::<&LitColors>(entity).ok();
-        if let (Some(opacity), Some(colors)) = (opacity, colors) {
-            return Self::Made(opacity.voxels.clone(), (*colors).clone());
+    /// That of a volume, of which `unlit` is what is classified, if it is.
+    pub fn of(world: &World, entity: Entity, unlit: Option<Arc<Unlit>>) -> Self {
+        if let Some(unlit) = unlit {
+            return Self::Classified(unlit);
         }
         let clip = world.get::<&Clip>(entity).ok().map(|clip| (*clip).clone());
         let painted = world.get::<&Painted>(entity);
         painted.map_or(Self::Clear, |painted| Self::Painted((*painted).clone(), clip))
     }
 
+    /// c_1 … c_L of what is classified, each as if no shadow fell on it.
+    pub fn colors(&self) -> Option<LitColors> {
+        let Self::Classified(unlit) = self else { return None };
+        let colors = |lit: LitBricks| VoxelColors::new(unlit.grid.size, lit);
+        Some(LitColors {
+            base: colors(LitBricks::base(unlit)),
+            shadowed: LitBricks::unshadowed(unlit).into_iter().map(colors).collect(),
+            ambient: LitBricks::ambient(unlit).map(colors),
+        })
+    }
+
     /// Whether a voxel of a brick may have an opacity.
     pub fn may_hold(&self, place: BrickPlace) -> bool {
         match self {
-            Self::Made(opacity, _) => opacity.brick(place.brick).is_some(),
+            Self::Classified(unlit) => unlit.opacity.voxels.brick(place.brick).is_some(),
             Self::Painted(..) => true,
             Self::Clear => false,
         }
@@ -54,8 +67,9 @@ impl Backdrop {
     /// Fills in α_V of a brick, which comes zeroed.
     pub fn opacity(&self, grid: &Grid, place: BrickPlace, made: &mut [f32; VOXELS]) {
         match self {
-            Self::Made(opacity, _) => {
-                made.clone_from_slice(opacity.brick(place.brick).unwrap_or(&[0.0; VOXELS]));
+            Self::Classified(unlit) => {
+                let opacity = unlit.opacity.voxels.brick(place.brick);
+                made.clone_from_slice(opacity.unwrap_or(&[0.0; VOXELS]));
             }
             Self::Painted(painted, clip) => {
                 paint(painted, clip.as_ref(), grid, place, |at, [_, _, _, alpha]| made[at] = alpha);
@@ -64,29 +78,13 @@ impl Backdrop {
         }
     }
 
-    /// Fills in one of the colours of a brick, which comes zeroed.
-    pub fn color(&self, grid: &Grid, place: BrickPlace, channel: Channel, made: &mut BrickColors) {
-        match self {
-            Self::Made(_, colors) => {
-                if !channel.of(colors).is_some_and(|colors| colors.fill(place, made)) {
-                    made.fill([0.0; 3]);
-                }
-            }
-            Self::Painted(painted, clip) if channel == Channel::Base => {
-                paint(painted, clip.as_ref(), grid, place, |at, [r, g, b, _]| made[at] = [r, g, b]);
-            }
-            Self::Painted(..) | Self::Clear => {}
+    /// Fills in the colours of a brick that came with them, black where it is clear; it comes zeroed.
+    pub fn paint(&self, grid: &Grid, place: BrickPlace, made: &mut BrickColors) {
+        if let Self::Painted(painted, clip) = self {
+            paint(painted, clip.as_ref(), grid, place, |at, [r, g, b, alpha]| {
+                made[at] = if alpha > 0.0 { [r, g, b] } else { [0.0; 3] };
+            });
         }
-    }
-
-    /// What none of such colours in a brick is above.
-    pub fn brightest(&self, grid: &Grid, place: BrickPlace, channel: Channel) -> f32 {
-        if let Self::Made(_, colors) = self {
-            return channel.of(colors).map_or(0.0, |colors| colors.brightest(place));
-        }
-        let mut made = [[0.0; 3]; VOXELS];
-        self.color(grid, place, channel, &mut made);
-        brightest(&made)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::components::Matte;
 use crate::volume::bricks::{BrickPlace, Bricks, VOXELS};
 use crate::volume::grid::Grid;
 use crate::volume::layer::{Layer, LitColors};
-use crate::volume::voxel_colors::{BrickColors, ColorSource, VoxelColors};
+use crate::volume::voxel_colors::{BrickColors, ColorSource, VoxelColors, brightest};
 
 /// A polygon, where it is and how much of a voxel it takes up there.
 #[derive(Debug)]
@@ -28,6 +28,8 @@ pub(super) struct Covering {
 pub(super) struct Mattes {
     pub grid: Grid,
     pub backdrop: Backdrop,
+    /// Colours of the volume, if it is classified.
+    pub colors: Option<LitColors>,
     pub polygons: Vec<Covering>,
 }
 
@@ -94,17 +96,32 @@ impl Mattes {
     }
 }
 
+impl Matted {
+    fn of_volume(&self) -> Option<&VoxelColors> {
+        self.channel.of(self.mattes.colors.as_ref()?)
+    }
+
+    /// The colours of the volume alone.
+    fn backdrop(&self, place: BrickPlace, colors: &mut BrickColors) {
+        if self.of_volume().is_some_and(|own| own.fill(place, colors)) {
+            return;
+        }
+        colors.fill([0.0; 3]);
+        if self.channel == Channel::Base {
+            self.mattes.backdrop.paint(&self.mattes.grid, place, colors);
+        }
+    }
+}
+
 impl ColorSource for Matted {
     fn fill(&self, place: BrickPlace, colors: &mut BrickColors) -> bool {
         if self.opacity.brick(place.brick).is_none() {
             return false;
         }
-        let Mattes { grid, backdrop, polygons } = &*self.mattes;
         let (mut alpha, mut own) = ([0.0; VOXELS], [[0.0; 3]; VOXELS]);
-        colors.fill([0.0; 3]);
-        backdrop.opacity(grid, place, &mut alpha);
-        backdrop.color(grid, place, self.channel, colors);
-        for polygon in polygons.iter().filter(|polygon| polygon.is_in(place)) {
+        self.mattes.backdrop.opacity(&self.mattes.grid, place, &mut alpha);
+        self.backdrop(place, colors);
+        for polygon in self.mattes.polygons.iter().filter(|polygon| polygon.is_in(place)) {
             let of_polygon = self.channel.of(&polygon.coverage.colors);
             let has_color = of_polygon.is_some_and(|colors| colors.fill(place, &mut own));
             polygon.matte(place, &mut alpha, |at, [of_polygon, of_volume]| {
@@ -119,12 +136,18 @@ impl ColorSource for Matted {
     }
 
     fn brightest(&self, place: BrickPlace) -> f32 {
-        let Mattes { grid, backdrop, polygons } = &*self.mattes;
+        let mut colors = [[0.0; 3]; VOXELS];
+        let of_volume = if let Some(colors) = self.of_volume() {
+            colors.brightest(place)
+        } else {
+            self.backdrop(place, &mut colors);
+            brightest(&colors)
+        };
         let of_polygon = |polygon: &Covering| {
             self.channel.of(&polygon.coverage.colors).map_or(0.0, |color| color.brightest(place))
         };
-        let polygons = polygons.iter().filter(|polygon| polygon.is_in(place)).map(of_polygon);
-        polygons.fold(backdrop.brightest(grid, place, self.channel), f32::max)
+        let polygons = self.mattes.polygons.iter().filter(|polygon| polygon.is_in(place));
+        polygons.map(of_polygon).fold(of_volume, f32::max)
     }
 
     fn bytes(&self) -> u64 {

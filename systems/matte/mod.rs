@@ -5,19 +5,22 @@ mod backdrop;
 mod matted;
 mod matting;
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use hecs::{Entity, World};
 use rayon::prelude::*;
 
 use crate::components::{Matte, Order, Surface, Voxelize};
 use crate::error::Error;
+use crate::light::unlit::Unlit;
 use crate::polygon::coverage::{Ball, Covered, Flat};
 use crate::polygon::face::{FaceOpacities, Faces};
 use crate::polygon::matted::matted;
 use crate::polygon::may_hold::MayHold;
 use crate::schedule::{Outbox, Plan, ProductKey, System};
 use crate::volume::grid::Grid;
-use crate::volume::layer::{Composite, Coverage, Layer, LitColors, Opacity};
+use crate::volume::layer::{Composite, Coverage, Layer, Opacity};
 use crate::volume::scene_volumes::{SceneVolume, around, volumes};
 use backdrop::Backdrop;
 use matted::{Covering, Mattes};
@@ -48,15 +51,17 @@ impl System for MattePolygons {
     type Product = Composite;
     const NAME: &'static str = "matte";
     const READS: &'static [ProductKey] =
-        &[ProductKey::of::<Opacity>(), ProductKey::of::<LitColors>(), ProductKey::of::<Coverage>()];
+        &[ProductKey::of::<Opacity>(), ProductKey::of::<Coverage>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Composite>) -> Result<(), Error> {
-        let (polygons, volumes) = (Polygon::all(world), volumes(world));
+        let (polygons, volumes, unlit) = (Polygon::all(world), volumes(world), Unlit::all(world));
         for SceneVolume { entity, grid, unit, .. } in &volumes {
             let here = |polygon: &&Polygon| polygon.is_in(*entity, &volumes);
             let polygons: Vec<_> = polygons.iter().filter(here).cloned().collect();
             if !polygons.is_empty() {
-                let backdrop = Backdrop::of(world, *entity);
+                let unlit = unlit.iter().find(|(classified, _)| classified == entity);
+                let unlit = unlit.map(|(_, unlit)| Arc::clone(unlit));
+                let backdrop = Backdrop::of(world, *entity, unlit);
                 let inputs = Inputs { grid: *grid, unit: *unit, backdrop, polygons };
                 out.derive(*entity, inputs, |inputs| Ok(Composite(inputs.composite())))?;
             }
@@ -129,6 +134,7 @@ impl Inputs {
     fn composite(&self) -> Layer {
         let covering = |polygon: &Polygon| polygon.covering(&self.grid, self.unit);
         let polygons = self.polygons.iter().map(covering).collect();
-        Mattes { grid: self.grid, backdrop: self.backdrop.clone(), polygons }.layer()
+        let (backdrop, colors) = (self.backdrop.clone(), self.backdrop.colors());
+        Mattes { grid: self.grid, backdrop, colors, polygons }.layer()
     }
 }

@@ -4,6 +4,8 @@ mod lit_layer;
 mod planned;
 mod sent;
 
+use std::sync::Arc;
+
 use glam::Vec4;
 use hecs::{Entity, World};
 
@@ -44,7 +46,7 @@ struct Inputs {
 enum Voxels {
     /// A composite of a volume and polygons.
     Colored(Bricks<f32>, LitColors),
-    Unlit(Box<Unlit>),
+    Unlit(Arc<Unlit>),
     Painted(Painted, Grid, Option<Clip>),
 }
 
@@ -109,7 +111,7 @@ fn voxels(world: &World) -> Vec<(Entity, Voxels)> {
     let is_new = |made: &[(Entity, Voxels)], entity| made.iter().all(|(other, _)| *other != entity);
     for (entity, unlit) in Unlit::all(world) {
         if is_new(&made, entity) {
-            made.push((entity, Voxels::Unlit(Box::new(unlit))));
+            made.push((entity, Voxels::Unlit(unlit)));
         }
     }
     let mut painted = world.query::<(Entity, &Grid, &Painted, Option<&Clip>)>();

@@ -2,7 +2,9 @@
 
 use hecs::{Entity, World};
 
-use crate::components::{CastsShadow, Classify, Clip, Light, Material, Matte, Surface, TexelKind, Voxelize};
+use crate::components::{
+    CastsShadow, Classify, Clip, Light, Material, Matte, Surface, TexelKind, Voxelize,
+};
 use crate::light::shading::{Reflectance, lamps};
 use crate::light::strength::ProjectedBy;
 use crate::light::unlit::{brightest_color, most_reflected};

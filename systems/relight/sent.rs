@@ -18,7 +18,7 @@ pub(crate) enum Sent<'a> {
         shadowed: Vec<(&'a VoxelColors, Option<&'a VoxelStrength>)>,
     },
     /// Colors that nobody else asks for.
-    Lit(Box<LitBricks<'a>>),
+    Lit(Box<LitBricks>),
 }
 
 impl Sent<'_> {

@@ -6,10 +6,9 @@ use gelray::systems::JOBS;
 use gelray::view::picture::Frame;
 use gelray::view::samples::Samples;
 use gelray::volume::gel::Gel;
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 use gelray::volume::pyramid::Pyramid;
 use gelray::volume::ranges::Ranges;
-use gelray::volume::voxel_colors::VoxelColors;
 use hecs::EntityRef;
 
 use super::support::{Shown, assert_sound, rendered, run};
@@ -22,10 +21,6 @@ fn taken(entity: EntityRef<'_>, system: &str) -> Option<u64> {
     match system {
         "ranges" => bytes(entity, |made: &Ranges| made.bytes()),
         "classify" => bytes(entity, |made: &Opacity| made.voxels.bytes()),
-        "shade" => bytes(entity, |made: &LitColors| {
-            let apart = made.shadowed.iter().chain(&made.ambient);
-            made.base.bytes() + apart.map(VoxelColors::bytes).sum::<u64>()
-        }),
         "relight" => bytes(entity, |made: &Gel| {
             made.lit.bytes()
                 + made.ambient.as_ref().map_or(0, gelray::volume::gel::GelBricks::bytes)

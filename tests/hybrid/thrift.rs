@@ -10,7 +10,7 @@ use gelray::systems::JOBS;
 use gelray::view::extent::Extent;
 use gelray::view::samples::Samples;
 use gelray::volume::grid::Scalars;
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 use gelray::volume::ranges::Ranges;
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
@@ -123,7 +123,7 @@ fn paint_without_polygons_runs_no_system_for_what_it_does_not_state() {
         assert!(plan.bytes() == 0 && !plan.why.is_empty(), "{}", job.name);
     }
     for entity in &world {
-        assert!(!entity.has::<Ranges>() && !entity.has::<Opacity>() && !entity.has::<LitColors>());
+        assert!(!entity.has::<Ranges>() && !entity.has::<Opacity>());
     }
     // Without a polygon nothing is kept for C_G and C_A, and no position below a pixel.
     let samples = world.get::<&Samples>(view).unwrap();

@@ -5,12 +5,12 @@ use gelray::shared::Shared;
 use gelray::volume::gel::Gel;
 use gelray::volume::gel::GelBricks;
 use gelray::volume::grid::{Grid, Scalars};
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
 use super::{
-    Ball, ball, contour, keep_colors, prepare, sampled, spawn_light, spawn_volume, texel, voxels,
+    Ball, ball, colors, contour, prepare, sampled, spawn_light, spawn_volume, texel, voxels,
 };
 
 #[test]
@@ -21,10 +21,9 @@ fn nan_is_clear_and_counted_and_leaves_every_colour_finite() {
     let values = sampled(&grid, |p| if hole(p) { f32::NAN } else { p.x as f32 });
     let count = values.iter().filter(|value| value.is_nan()).count();
     let volume = spawn_volume(&mut world, grid, values, contour(8.0));
-    keep_colors(&mut world);
     prepare(&mut world);
+    let colors = colors(&mut world, volume);
     let opacity = world.get::<&Opacity>(volume).unwrap();
-    let colors = world.get::<&LitColors>(volume).unwrap();
     assert_eq!(opacity.nan_voxels, count as u64);
     for (voxel, point) in voxels(&grid) {
         assert!(Vec3::from(colors.base.value(voxel)).is_finite());

@@ -11,18 +11,19 @@ use gelray::components::{
     Surface, TexelKind, Toward, View, Voxelize,
 };
 use gelray::polygon::face::{Face, Faces};
-use gelray::schedule::{Ran, Schedule, Watch};
+use gelray::schedule::{Job, Ran, Schedule, Watch};
 use gelray::shared::Shared;
 use gelray::systems::JOBS;
 use gelray::view::extent::Extent;
 use gelray::volume::gel::{CELLS, GelBricks};
 use gelray::volume::grid::{Grid, Scalars};
+use gelray::volume::layer::{Composite, LitColors};
 use gelray::with_texels;
 use glam::{DVec3, Vec3, Vec4};
 use hecs::{Entity, World};
 
 /// The stages of preparation, in the order that the schedule gives them.
-const STAGES: [&str; 5] = ["ranges", "classify", "shade", "relight", "pyramid"];
+const STAGES: [&str; 4] = ["ranges", "classify", "relight", "pyramid"];
 
 /// The schedule of preparation alone.
 fn schedule() -> Schedule {
@@ -74,9 +75,15 @@ fn spawn_view(world: &mut World, grid: &Grid) -> Entity {
     world.spawn((Name("view".into()), Order(9), view, sampling, extent))
 }
 
-/// A polygon that is scan-converted, far from everything: colors of voxels are kept for those that it might be matted with.
-fn keep_colors(world: &mut World) -> Entity {
-    spawn_far(world, Matte::Over)
+/// What the voxels of a volume send, light by light: they are matted with a polygon that is far from all of them.
+fn colors(world: &mut World, volume: Entity) -> LitColors {
+    let far = spawn_far(world, Matte::Over);
+    let is_asked = |job: &&Job| ["scan_convert", "matte"].contains(&job.name);
+    let jobs: Vec<_> = JOBS.iter().filter(is_asked).copied().collect();
+    Schedule::new(&jobs).unwrap().run(world, &Watch::default()).unwrap();
+    let colors = world.remove_one::<Composite>(volume).unwrap().0.colors;
+    world.despawn(far).unwrap();
+    colors
 }
 
 fn spawn_far(world: &mut World, matte: Matte) -> Entity {

@@ -6,12 +6,12 @@ use gelray::volume::classification::Classifier;
 use gelray::volume::clipping::Cut;
 use gelray::volume::gradients::Gradients;
 use gelray::volume::grid::{Grid, Scalars};
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 use glam::{DAffine3, DMat3, DVec3};
 use hecs::World;
 use proptest::prelude::*;
 
-use super::{keep_colors, prepare, spawn_volume, voxels};
+use super::{colors, prepare, spawn_volume, voxels};
 
 /// Values that vary little but for a part of them that is steep, so that some bricks are empty and some are not.
 fn lumps(grid: &Grid, seed: f64, height: f64) -> Vec<f32> {
@@ -73,11 +73,10 @@ proptest! {
         if is_clipped {
             world.insert_one(volume, clip.clone()).unwrap();
         }
-        keep_colors(&mut world);
         prepare(&mut world);
+        let colors = colors(&mut world, volume).base.bricks();
         let (opacity, scalars) =
             (world.get::<&Opacity>(volume).unwrap(), world.get::<&Scalars>(volume).unwrap());
-        let colors = world.get::<&LitColors>(volume).unwrap();
         prop_assert_eq!(opacity.nan_voxels, u64::from(nan.is_some()));
         let (gradients, cut) = (Gradients::new(&grid), Cut::new(&clip, &grid));
         for (voxel, _) in voxels(&grid) {
@@ -87,7 +86,7 @@ proptest! {
             prop_assert_eq!(opacity.voxels.value(voxel).to_bits(), expected.to_bits());
             let is_stored = opacity.voxels.brick(voxel.map(|n| n / EDGE)).is_some();
             prop_assert!(is_stored || expected == 0.0);
-            prop_assert_eq!(colors.base.value(voxel) != [0.0; 3], expected > 0.0);
+            prop_assert_eq!(colors.value(voxel) != [0.0; 3], expected > 0.0);
         }
     }
 }

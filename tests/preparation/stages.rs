@@ -15,8 +15,8 @@ use glam::{Vec3, Vec4};
 use hecs::{Entity, World};
 
 use super::{
-    Ball, RADIUS, ball, contour, keep_colors, prepare, sampled, spawn_light, spawn_view,
-    spawn_volume, texel, voxels,
+    Ball, RADIUS, ball, colors, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume,
+    texel, voxels,
 };
 
 /// A light's strengths in one volume.
@@ -28,10 +28,9 @@ fn lit(volume: Entity, voxels: Bricks<u16>, full: f32) -> LightStrength {
 #[test]
 fn a_ball_is_a_shell_of_the_stated_thickness_lit_along_its_radii() {
     let Ball { mut world, volume, grid, .. } = ball();
-    keep_colors(&mut world);
     prepare(&mut world);
+    let colors = colors(&mut world, volume);
     let opacity = world.get::<&Opacity>(volume).unwrap();
-    let colors = world.get::<&LitColors>(volume).unwrap();
     let gel = world.get::<&Gel>(volume).unwrap();
     let Material { ambient, diffuse, .. } = Material::default();
     let mut interesting = 0;
@@ -59,9 +58,8 @@ fn a_one_sided_surface_is_lit_where_it_faces_the_light() {
     let Ball { mut world, volume, grid, .. } = ball();
     let material = Material { two_sided: false, ..Material::default() };
     world.insert_one(volume, material).unwrap();
-    keep_colors(&mut world);
     prepare(&mut world);
-    let colors = world.get::<&LitColors>(volume).unwrap();
+    let colors = colors(&mut world, volume);
     let at = |z: usize| Vec3::from(colors.base.value([15, 15, z])).x;
     assert_eq!(grid.index_to_world.translation.z, -15.0);
     // The light stands above: the ball's top is lit, its bottom has ambient light alone.
@@ -91,14 +89,13 @@ fn the_strength_of_each_light_weakens_its_own_color_in_the_order_of_the_scene() 
     let side = spawn_light(&mut world, 4, Toward::Direction([1.0, 0.0, 0.0]));
     world.insert_one(light, CastsShadow::default()).unwrap();
     world.insert_one(side, CastsShadow::default()).unwrap();
-    keep_colors(&mut world);
     prepare(&mut world);
     let unshadowed = world.get::<&Gel>(volume).unwrap().lit.clone();
     let opacity = world.get::<&Opacity>(volume).unwrap().voxels.clone();
     let quarter: Bricks<u16> = opacity.map(|_, _, made| made.fill(65535));
     world.insert_one(side, lit(volume, quarter, 0.25)).unwrap();
     prepare(&mut world);
-    let colors = world.get::<&LitColors>(volume).unwrap();
+    let colors = colors(&mut world, volume);
     let gel = world.get::<&Gel>(volume).unwrap();
     assert_eq!(colors.shadowed.len(), 2);
     for (voxel, point) in voxels(&grid) {
@@ -113,7 +110,7 @@ fn the_strength_of_each_light_weakens_its_own_color_in_the_order_of_the_scene() 
 }
 
 #[test]
-fn voxels_lit_as_gel_is_made_are_those_of_colors_that_are_kept() {
+fn voxels_lit_all_lights_together_are_those_that_are_lit_light_by_light() {
     let shapes = [Form::Above, Form::Around];
     for (kind, form) in [TexelKind::F32, TexelKind::U16].into_iter().zip(shapes) {
         let Ball { mut world, volume, light, view, grid } = ball();
@@ -136,11 +133,8 @@ fn voxels_lit_as_gel_is_made_are_those_of_colors_that_are_kept() {
         });
         world.insert_one(side, lit(volume, part, 0.75)).unwrap();
         prepare(&mut world);
-        assert!(world.get::<&LitColors>(volume).is_err(), "nobody asks for colors");
         let at_once = world.get::<&Gel>(volume).unwrap().deref().clone();
-        keep_colors(&mut world);
-        prepare(&mut world);
-        let colors = world.get::<&LitColors>(volume).unwrap().deref().clone();
+        let colors = colors(&mut world, volume);
         assert_eq!(colors.shadowed.len(), 2);
         world.insert_one(volume, Composite(Layer { opacity, colors })).unwrap();
         prepare(&mut world);

@@ -8,16 +8,12 @@ use gelray::shared::Shared;
 use gelray::systems::JOBS;
 use gelray::volume::gel::Gel;
 use gelray::volume::grid::{Grid, Painted};
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 use gelray::volume::pyramid::Pyramid;
 use gelray::volume::ranges::Ranges;
-use gelray::volume::voxel_colors::VoxelColors;
 use hecs::{Entity, World};
 
-use super::{
-    Ball, STAGES, ball, contour, keep_colors, prepare, sampled, spawn_light, spawn_view,
-    spawn_volume,
-};
+use super::{Ball, STAGES, ball, contour, prepare, sampled, spawn_light, spawn_view, spawn_volume};
 
 /// The stages that made something in a run.
 fn made(world: &mut World) -> Vec<&'static str> {
@@ -48,14 +44,6 @@ fn each_change_makes_again_what_depends_on_it_and_nothing_else() {
     assert_eq!(made(&mut world), ["relight", "pyramid"]);
     world.insert_one(view, DepthCue { k1: 1.0, k2: 0.01 }).unwrap();
     assert_eq!(made(&mut world), ["relight"]);
-    // Colors are kept where polygons are matted with them.
-    let far = keep_colors(&mut world);
-    assert_eq!(made(&mut world), ["shade"]);
-    world.get::<&mut Material>(volume).unwrap().diffuse = 0.25;
-    assert_eq!(made(&mut world), ["shade", "relight"]);
-    world.despawn(far).unwrap();
-    assert_eq!(made(&mut world), [""; 0]);
-    assert!(world.get::<&LitColors>(volume).is_err());
     world.get::<&mut Sampling>(view).unwrap().stop_at = 0.5;
     assert_eq!(made(&mut world), [""; 0]);
     world.get::<&mut Sampling>(view).unwrap().skip = Skip::None;
@@ -117,7 +105,7 @@ fn what_is_no_longer_stated_is_taken_off() {
     world.remove_one::<Classify>(volume).unwrap();
     prepare(&mut world);
     let left = world.entity(volume).unwrap();
-    assert!(!left.has::<Ranges>() && !left.has::<Opacity>() && !left.has::<LitColors>());
+    assert!(!left.has::<Ranges>() && !left.has::<Opacity>());
     assert!(!left.has::<Gel>() && !left.has::<Pyramid>());
 }
 
@@ -126,10 +114,6 @@ fn taken(world: &World, stage: &str, entity: Entity) -> Option<u64> {
     match stage {
         "ranges" => world.get::<&Ranges>(entity).ok().map(|made| made.bytes()),
         "classify" => world.get::<&Opacity>(entity).ok().map(|made| made.voxels.bytes()),
-        "shade" => world.get::<&LitColors>(entity).ok().map(|made| {
-            let apart = made.shadowed.iter().chain(&made.ambient);
-            made.base.bytes() + apart.map(VoxelColors::bytes).sum::<u64>()
-        }),
         "relight" => world.get::<&Gel>(entity).ok().map(|made| {
             made.lit.bytes()
                 + made.ambient.as_ref().map_or(0, gelray::volume::gel::GelBricks::bytes)
@@ -141,7 +125,6 @@ fn taken(world: &World, stage: &str, entity: Entity) -> Option<u64> {
 #[test]
 fn a_plan_names_what_is_then_made_and_never_too_few_bytes() {
     let Ball { mut world, light, view, grid, .. } = ball();
-    keep_colors(&mut world);
     // Every voxel of this one is interesting: the worst case.
     let values = sampled(&grid, |_| 5.0);
     spawn_volume(&mut world, grid, values, contour(5.0));

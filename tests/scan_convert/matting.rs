@@ -2,9 +2,8 @@
 
 use gelray::components::{Clip, Color, Matte, Order, Surface, Voxelize};
 use gelray::shared::Shared;
-use gelray::volume::bricks::Bricks;
 use gelray::volume::grid::{Grid, Painted};
-use gelray::volume::layer::{Coverage, Layer, LitColors, Opacity};
+use gelray::volume::layer::{Coverage, Layer};
 use glam::{DVec3, Vec3};
 use hecs::{Entity, World};
 
@@ -13,22 +12,13 @@ use crate::scene::{add, composite, cube, rectangle, run, world};
 const SIZE: usize = 24;
 const GREEN: Vec3 = Vec3::new(0.0, 1.0, 0.0);
 
-fn filled<T: Copy + Default + Send + Sync>(value: T) -> Bricks<T> {
-    Bricks::make([SIZE; 3], |place, brick| {
-        place.voxels().for_each(|(at, _)| brick[at] = value);
-        place.brick[0] < 2
-    })
-}
-
 /// A volume of opacity `opacity` and colour green where x < 16, and a red polygon through the middle.
 fn scene(opacity: f32, matte: Matte, alpha: f32) -> (World, Entity) {
     let mut scene = world(cube(SIZE));
     let volume = scene.query::<(Entity, &Grid)>().iter().next().unwrap().0;
-    let color = if opacity > 0.0 { GREEN } else { Vec3::ZERO };
-    let base = filled(color.to_array()).into();
-    let colors = LitColors { base, shadowed: Vec::new(), ambient: None };
-    let layer = (Opacity { voxels: filled(opacity), nan_voxels: 0 }, colors);
-    scene.insert(volume, layer).unwrap();
+    let painted = |x: usize| if x < 16 { GREEN.extend(opacity).to_array() } else { [0.0; 4] };
+    let painted = (0..SIZE * SIZE * SIZE).map(|at| painted(at % SIZE)).collect();
+    scene.insert_one(volume, Painted::F32(Shared::new(painted))).unwrap();
     let face = rectangle(DVec3::splat(12.0), DVec3::Z, 9.0);
     let polygon = add(&mut scene, vec![face], alpha, true);
     redden(&mut scene, polygon, matte);

@@ -3,7 +3,7 @@
 use gelray::components::Reconstruct;
 use gelray::prelude::*;
 use gelray::volume::gel::Gel;
-use gelray::volume::layer::{LitColors, Opacity};
+use gelray::volume::layer::Opacity;
 
 use super::{carrier, floats, made, world};
 
@@ -34,18 +34,14 @@ fn voxels_are_classified_for_a_light_that_casts_shadows_alone_and_splines_filter
     renderer.render(&mut world).unwrap();
     let products = |world: &World| {
         let volume = carrier::<Reconstruct>(world);
-        [
-            world.get::<&Opacity>(volume).is_ok(),
-            world.get::<&LitColors>(volume).is_ok(),
-            world.get::<&Gel>(volume).is_ok(),
-        ]
+        [world.get::<&Opacity>(volume).is_ok(), world.get::<&Gel>(volume).is_ok()]
     };
-    assert_eq!(products(&world), [false; 3]);
+    assert_eq!(products(&world), [false; 2]);
     let light = carrier::<Light>(&world);
     world.insert_one(light, CastsShadow::default()).unwrap();
     let shadowed = renderer.render(&mut world).unwrap();
     assert_eq!(made(&shadowed.ran), ["classify", "light_sweep", "cast", "resample"]);
-    assert_eq!(products(&world), [true, false, false]);
+    assert_eq!(products(&world), [true, false]);
     let view = carrier::<View>(&world);
     let interpolating = Sampling { filter: Filter::Interpolating, ..Sampling::default() };
     world.insert_one(view, interpolating).unwrap();
