@@ -31,7 +31,7 @@ use crate::volume::scene_volumes::{Content, SceneVolume};
 use casters::Casters;
 use columns::Columns;
 use inputs::{Inputs, LitVolume, lit_volumes, reads_buffer, stated_volumes};
-use voxels::Voxels;
+use voxels::{TOGETHER, Voxels};
 
 /// Makes the [`LightStrength`] of every light that `casts_shadow`; other lights cost nothing.
 pub struct LightSweep;
@@ -132,9 +132,9 @@ fn bias_slices(grid: &Grid, shear: &Shear, shadow: &CastsShadow) -> f64 {
     (slices.min((shear.size[2] + 1) as f64) * 1_048_576.0).round() / 1_048_576.0
 }
 
-/// Slices that are needed at once.
+/// Slices that are needed at once: those that are lit together, and those within the bias before them.
 fn depth(bias: f64, shear: &Shear) -> usize {
-    (bias.ceil() as usize).saturating_add(1).min(shear.size[2])
+    (bias.ceil() as usize).saturating_add(TOGETHER).min(shear.size[2])
 }
 
 const NO_DIRECTION: &str =
@@ -219,8 +219,11 @@ impl Sweep<'_> {
                 let brightest = f64::from(brightest);
                 slices.extend(swept.iter().map(|&s| quantize(f64::from(s), brightest)));
             }
-            if let Some(voxels) = &mut voxels {
-                voxels.light(slice, &columns);
+            let done = slice + 1;
+            if let Some(voxels) = &mut voxels
+                && (done.is_multiple_of(TOGETHER) || done == shear.size[2])
+            {
+                voxels.light(slice / TOGETHER * TOGETHER..done, &columns);
             }
             watch.advance();
         }

@@ -1,11 +1,16 @@
 //! From columns to voxels: the one resampling of strengths, at points that are the bias nearer to the light (paper §4).
 
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::columns::Columns;
 use crate::light::strength::{Buffer, Place, Shear, quantize};
 use crate::volume::bricks::{Bricks, EDGE};
+
+/// Slices whose voxels are lit together: each time all threads are waited for.
+pub(super) const TOGETHER: usize = EDGE;
 
 /// The strengths at interesting voxels, gathered slice by slice.
 pub(super) struct Voxels<'a> {
@@ -15,8 +20,8 @@ pub(super) struct Voxels<'a> {
     full: f32,
     /// What other volumes let through.
     others: &'a [&'a Buffer],
-    /// For each slice and each row of bricks in it.
-    slices: Vec<Vec<Lit>>,
+    /// For each slice, one after the other, each row of bricks in it.
+    rows: Vec<Lit>,
 }
 
 /// The strengths of one slice in one row of bricks, x fastest in each brick.
@@ -61,7 +66,7 @@ impl<'a> Voxels<'a> {
         full: f32,
         others: &'a [&'a Buffer],
     ) -> Self {
-        Self { opacity, bias, full, others, slices: Vec::new() }
+        Self { opacity, bias, full, others, rows: Vec::new() }
     }
 
     /// What the other volumes let through to a voxel of the slice.
@@ -73,17 +78,19 @@ impl<'a> Voxels<'a> {
         self.others.iter().map(|other| f64::from(other.at(world))).product()
     }
 
-    /// Lights the interesting voxels of the slice that the columns have come to.
-    pub fn light(&mut self, slice: usize, columns: &Columns<'_>) {
+    /// Lights the interesting voxels of the next slices, the last of which the columns have come to; at most [`TOGETHER`].
+    pub fn light(&mut self, slices: Range<usize>, columns: &Columns<'_>) {
         let shear = columns.shear;
-        let beams = Beams {
-            columns,
-            slice,
-            place: shear.place(shear.column([0.0; 2], slice as f64), slice as f64 - self.bias.0),
+        let down = shear.size[1].div_ceil(EDGE);
+        let lit = |at: usize| {
+            let (slice, row) = (at / down, at % down);
+            let from = shear.column([0.0; 2], slice as f64);
+            let place = shear.place(from, slice as f64 - self.bias.0);
+            self.row(row, &Beams { columns, slice, place })
         };
-        let rows = (0..shear.size[1].div_ceil(EDGE)).into_par_iter();
-        let rows = rows.map(|row| self.row(row, &beams)).collect();
-        self.slices.push(rows);
+        let lit: Vec<_> =
+            (slices.start * down..slices.end * down).into_par_iter().map(lit).collect();
+        self.rows.extend(lit);
     }
 
     fn row(&self, row: usize, beams: &Beams<'_>) -> Lit {
@@ -115,12 +122,13 @@ impl<'a> Voxels<'a> {
 
     /// Puts the strengths into the bricks of what is relit.
     pub(crate) fn gather(self, shear: &Shear) -> Bricks<u16> {
+        let down = shear.size[1].div_ceil(EDGE);
         self.opacity.map(|bricks, opacities, made| {
             let [column, row, along] = shear.axes.map(|axis| bricks.brick[axis]);
             let first = along * EDGE;
             for along in first..(first + EDGE).min(shear.size[2]) {
                 let slice = shear.flip(along);
-                let lit = &self.slices[slice][row];
+                let lit = &self.rows[slice * down + row];
                 let mut strengths = lit.strengths[lit.starts[column] as usize..].iter();
                 let (first, [across, down]) = offsets(shear, slice);
                 for (x, y) in (0..EDGE).flat_map(|y| (0..EDGE).map(move |x| (x, y))) {

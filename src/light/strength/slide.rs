@@ -160,7 +160,9 @@ impl SlideLevel {
         let [columns, rows] = [0, 1].map(|a| Overlap::new(low[a], width[a], self.size[a], wrap));
         let (mut kept, mut count) = ([(0, 0.0); KEPT], 0);
         for texel in columns.texels() {
-            kept.iter_mut().skip(count).take(1).for_each(|kept| *kept = texel);
+            if let Some(kept) = kept.get_mut(count) {
+                *kept = texel;
+            }
             count += 1;
         }
         let mut sum = 0.0;
