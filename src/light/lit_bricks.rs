@@ -120,7 +120,7 @@ impl LitBricks {
     }
 
     /// Lights the voxels of the brick at `place` that have an opacity `alpha` above 0.
-    pub fn fill(&self, place: BrickPlace, alpha: &[f32; VOXELS], lit: &mut Rows) {
+    pub fn light(&self, place: BrickPlace, alpha: &[f32; VOXELS], lit: &mut Rows) {
         with_scalars!(&self.unlit.scalars, values => {
             dispatch!(self.level, _simd => self.rows(values, (place, alpha), lit));
         });
@@ -193,7 +193,7 @@ impl ColorSource for LitBricks {
     fn fill(&self, place: BrickPlace, colors: &mut BrickColors) -> bool {
         let Some(alpha) = self.opacity().brick(place.brick) else { return false };
         let mut lit = DARK;
-        Self::fill(self, place, alpha, &mut lit);
+        self.light(place, alpha, &mut lit);
         for (at, color) in colors.iter_mut().enumerate() {
             let own = side_by_side::one(&lit[at / EDGE], at % EDGE).to_array();
             *color = if alpha[at] > 0.0 { own } else { [0.0; 3] };

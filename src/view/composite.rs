@@ -48,12 +48,18 @@ pub(crate) fn is_simple(ratio: f64) -> bool {
 #[inline(always)]
 pub(crate) fn thicken_each<const N: usize>(opacities: &[f64; N], ratios: &[f64; N]) -> [f64; N] {
     let mut made = [0.0; N];
-    for at in 0..N {
-        let power = one_minus_power(opacities[at], ratios[at]);
-        made[at] = if opacities[at] >= 1.0 { 1.0 } else { power };
+    let (mut any_simple, mut all_simple) = (false, true);
+    for ratio in ratios {
+        any_simple |= is_simple(*ratio);
+        all_simple &= is_simple(*ratio);
     }
-    let simple = ratios.iter().fold(false, |any, ratio| any | is_simple(*ratio));
-    if simple {
+    if !all_simple {
+        for at in 0..N {
+            let power = one_minus_power(opacities[at], ratios[at]);
+            made[at] = if opacities[at] >= 1.0 { 1.0 } else { power };
+        }
+    }
+    if any_simple {
         for at in (0..N).filter(|&at| is_simple(ratios[at])) {
             made[at] = thicken(opacities[at], ratios[at]);
         }

@@ -115,9 +115,7 @@ struct Alike {
 impl ColorSource for Alike {
     fn fill(&self, place: BrickPlace, colors: &mut BrickColors) -> bool {
         self.opacity.brick(place.brick).is_some_and(|opacity| {
-            for (color, opacity) in colors.iter_mut().zip(opacity) {
-                *color = if *opacity > 0.0 { self.color } else { [0.0; 3] };
-            }
+            fill_alike(self.color, opacity, colors);
             true
         })
     }
@@ -129,6 +127,13 @@ impl ColorSource for Alike {
 
     fn bytes(&self) -> u64 {
         0
+    }
+}
+
+/// Fills in the colors of a brick: the same wherever an opacity is above 0, and black elsewhere.
+pub fn fill_alike(color: [f32; 3], opacity: &[f32; VOXELS], colors: &mut BrickColors) {
+    for (made, opacity) in colors.iter_mut().zip(opacity) {
+        *made = if *opacity > 0.0 { color } else { [0.0; 3] };
     }
 }
 

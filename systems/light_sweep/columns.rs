@@ -14,9 +14,9 @@ use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use super::casters::Casters;
-use super::opacities::Opacities;
+use super::opacities::{Opacities, between};
 use crate::light::strength::{Place, Shear, Slide};
-use crate::view::composite::{is_simple, thicken, thicken_each};
+use crate::view::composite::{thicken, thicken_each};
 
 /// Rows of columns that one task walks.
 const ROWS: usize = 16;
@@ -167,7 +167,7 @@ impl<'a> SweepStep<'a> {
             strengths.iter_mut().zip(arriving).for_each(|(s, &arriving)| *s = arriving as f32);
             return;
         };
-        let met = opacities.between(known.clone());
+        let met = opacities.around(known.clone());
         let columns = (met, arriving);
         dispatch!(self.level, _simd => self.attenuate(columns, (next, strengths)));
     }
@@ -211,7 +211,7 @@ impl<'a> SweepStep<'a> {
     ) {
         let (mut met, mut most) = ([0.0; COLUMNS], 0.0_f32);
         for n in 0..COLUMNS {
-            let opacity = opacities[n + 1] + self.phase[0] * (opacities[n] - opacities[n + 1]);
+            let opacity = between(opacities[n], opacities[n + 1], self.phase[0]);
             met[n] = f64::from(opacity.max(0.0));
             most = most.max(opacity);
         }
@@ -219,15 +219,7 @@ impl<'a> SweepStep<'a> {
             (*here, *behind) = (*arriving, *arriving);
             return;
         }
-        let part = self.columns.ratio * 0.5;
-        let mut halves = [0.0; COLUMNS];
-        if is_simple(part) {
-            for n in 0..COLUMNS {
-                halves[n] = thicken(met[n], part);
-            }
-        } else {
-            halves = thicken_each(&met, &[part; COLUMNS]);
-        }
+        let halves = thicken_each(&met, &[self.columns.ratio * 0.5; COLUMNS]);
         for n in 0..COLUMNS {
             let half = 1.0 - halves[n];
             here[n] = arriving[n] * half;

@@ -72,14 +72,20 @@ impl Opacities {
     }
 
     /// The opacities that some columns meet the slice between: one more than columns, the first is of the voxel before them.
-    pub fn between(&self, columns: Range<usize>) -> &[f32] {
+    pub fn around(&self, columns: Range<usize>) -> &[f32] {
         &self.row[columns.start..=columns.end]
     }
 
     /// The opacity where column `x` of the row meets the slice.
     #[inline]
     pub fn at(&self, x: usize, phase: f32) -> f32 {
-        let (before, behind) = (self.row[x], self.row[x + 1]);
-        behind + phase * (before - behind)
+        between(self.row[x], self.row[x + 1], phase)
     }
+}
+
+/// The opacity so far before a voxel, on the way to it from the one before.
+#[allow(clippy::inline_always, reason = "compiled anew within each set of instructions")]
+#[inline(always)]
+pub(super) fn between(before: f32, behind: f32, phase: f32) -> f32 {
+    behind + phase * (before - behind)
 }

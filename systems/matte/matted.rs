@@ -136,10 +136,10 @@ impl ColorSource for Matted {
     }
 
     fn brightest(&self, place: BrickPlace) -> f32 {
-        let mut colors = [[0.0; 3]; VOXELS];
         let of_volume = if let Some(colors) = self.of_volume() {
             colors.brightest(place)
         } else {
+            let mut colors = [[0.0; 3]; VOXELS];
             self.backdrop(place, &mut colors);
             brightest(&colors)
         };

@@ -54,7 +54,11 @@ impl System for MattePolygons {
         &[ProductKey::of::<Opacity>(), ProductKey::of::<Coverage>()];
 
     fn run(world: &World, out: &mut Outbox<'_, Composite>) -> Result<(), Error> {
-        let (polygons, volumes, unlit) = (Polygon::all(world), volumes(world), Unlit::all(world));
+        let (polygons, volumes) = (Polygon::all(world), volumes(world));
+        if polygons.is_empty() {
+            return Ok(());
+        }
+        let unlit = Unlit::all(world);
         for SceneVolume { entity, grid, unit, .. } in &volumes {
             let here = |polygon: &&Polygon| polygon.is_in(*entity, &volumes);
             let polygons: Vec<_> = polygons.iter().filter(here).cloned().collect();

@@ -31,7 +31,7 @@ pub(crate) fn planned(
     let sure = stated == TexelKind::Auto
         && match volume.content {
             Content::Classified => {
-                let brightest = brightest(world, volume.entity);
+                let brightest = brightest(world, volume.entity, is_matted);
                 let stays = held.is_opaque() && !(is_matted && may_be_cut(world));
                 stays && brightest.is_some_and(|most| most <= BRIGHT - ROUNDED)
             }
@@ -56,9 +56,9 @@ fn may_be_cut(world: &World) -> bool {
     query.iter().any(|voxelize| matches!(voxelize.matte, Matte::In | Matte::Out))
 }
 
-/// What no channel of the colors of a classified volume is above, nor of the polygons that are scan-converted, all lights
+/// What no channel of the colors of a classified volume is above, nor of polygons that are matted with it, all lights
 /// together and whatever they fall on; `None` if that is not known beforehand.
-fn brightest(world: &World, volume: Entity) -> Option<f32> {
+fn brightest(world: &World, volume: Entity, is_matted: bool) -> Option<f32> {
     type Stated<'a> = (&'a Classify, Option<&'a Material>, Option<&'a Tint>);
     // What a slide lets through, or a falloff below 1, may be brighter than the light.
     let mut shadows = world.query::<(&CastsShadow, Option<&ProjectedBy>)>().with::<&Light>();
@@ -78,7 +78,7 @@ fn brightest(world: &World, volume: Entity) -> Option<f32> {
     let lamps = lamps(world, &how);
     let mut color = brightest_color(classify, &material, tint);
     let mut polygons = world.query::<(&Surface, Option<&FaceColors>)>().with::<&Voxelize>();
-    for (surface, own) in &mut polygons {
+    for (surface, own) in polygons.iter().filter(|_| is_matted) {
         let own = own.map_or(0.0, FaceColors::brightest);
         color = color.max(surface.color.0.max_element()).max(own);
         // Each part of what is reflected is no more than the most that any of them has of it.

@@ -10,14 +10,14 @@ use crate::volume::voxel_colors::{BrickColors, VoxelColors};
 /// Colors of the interesting voxels of a layer, and what weakens them.
 #[derive(Debug)]
 pub(crate) enum Sent<'a> {
-    /// Colors that are made, as of a composite.
+    /// Light by light, as of a composite.
     Made {
         /// What no shadow weakens.
         base: &'a VoxelColors,
         /// c_i and β_i of each light that casts a shadow; `None` is β = 1.
         shadowed: Vec<(&'a VoxelColors, Option<&'a VoxelStrength>)>,
     },
-    /// Colors that nobody else asks for.
+    /// All lights at once.
     Lit(Box<LitBricks>),
 }
 
@@ -25,7 +25,7 @@ impl Sent<'_> {
     /// Fills in `c_T` of a brick, of the rows in which an opacity `alpha` is above 0.
     pub fn fill(&self, place: BrickPlace, alpha: &[f32; VOXELS], sent: &mut Rows) {
         match self {
-            Self::Lit(lights) => lights.fill(place, alpha, sent),
+            Self::Lit(lights) => lights.light(place, alpha, sent),
             Self::Made { base, shadowed } => {
                 let mut colors = [[0.0; 3]; VOXELS];
                 if base.fill(place, &mut colors) {

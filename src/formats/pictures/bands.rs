@@ -6,7 +6,8 @@ use rayon::prelude::*;
 /// Bytes of a row of pixels in a band before it is deflated, about: long enough to find repetitions.
 const BAND: usize = 1 << 18;
 
-/// How hard a band is deflated: the least that still finds repetitions, for a picture must not wait for its file.
+/// How hard a band is deflated: little, for a picture must not wait for its file. Level 1 takes three quarters of the time and
+/// leaves files two fifths longer.
 pub(super) const LEVEL: Compression = Compression::new(2);
 
 /// The parts of one zlib stream over the filtered rows of a picture, in order; the same for any number of threads.

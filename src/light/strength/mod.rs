@@ -65,7 +65,7 @@ impl VoxelStrength {
         let Some(strength) = of else { return [1.0; EDGE] };
         let Some(stored) = strength.voxels.brick(brick) else { return [0.0; EDGE] };
         let stored = &stored.as_chunks::<EDGE>().0[row];
-        if strength.receding.is_nothing() {
+        if strength.receding.is_none() {
             // Divided by 1 in 64 bits they would be the same.
             return stored.map(|kept| f32::from(kept) / 65535.0 * strength.full);
         }

@@ -37,7 +37,7 @@ impl Receding {
 
     /// Whether the light does not fall off: then every divisor is 1.
     #[must_use]
-    pub fn is_nothing(&self) -> bool {
+    pub fn is_none(&self) -> bool {
         self.falloff.is_none()
     }
 

@@ -17,6 +17,7 @@ use super::flat::{Flat, NearBrick, brick_place};
 use super::sides::turned;
 use crate::polygon::face::Face;
 use crate::volume::bricks::{BrickPlace, Bricks, EDGE, VOXELS};
+use crate::volume::voxel_colors::fill_alike;
 
 /// Cosine between the normals of faces from which on they are two sides.
 const OTHER_SIDE: f64 = -0.75;
@@ -105,12 +106,7 @@ impl Covered {
     #[must_use]
     pub fn colors(&self, of_faces: &[Vec3]) -> Bricks<[f32; 3]> {
         self.in_touched(|touched, made| match &touched.shares {
-            Shares::One(face) => {
-                let color = of_faces[*face].to_array();
-                for (made, opacity) in made.iter_mut().zip(touched.opacity.iter()) {
-                    *made = if *opacity > 0.0 { color } else { [0.0; 3] };
-                }
-            }
+            Shares::One(face) => fill_alike(of_faces[*face].to_array(), &touched.opacity, made),
             Shares::Many(shares) => {
                 for &(voxel, face, part) in shares {
                     let made: &mut [f32; 3] = &mut made[usize::from(voxel)];

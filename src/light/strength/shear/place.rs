@@ -134,19 +134,10 @@ impl Shear {
         plane: &[T],
         before: &impl Fn() -> f64,
     ) -> f64 {
-        let ([width, height], [x, y]) = (self.width(), near.low);
-        let [u, v] = near.part;
-        let inner = |at: i64, width: usize| at > 0 && at < width as i64 - 2;
-        if inner(x, width) && inner(y, height) {
-            let first = y as usize * width + x as usize;
-            let row = |at: usize| -> f64 {
-                let (low, high): (f64, f64) = (plane[at].into(), plane[at + 1].into());
-                low + u * (high - low)
-            };
-            let (low, high) = (row(first), row(first + width));
-            return low + v * (high - low);
+        match self.row_across(near, plane) {
+            Some([value]) => value,
+            None => self.at_border(near, plane, before),
         }
-        self.at_border(near, plane, before)
     }
 
     fn at_border<T: Copy + Into<f64>>(
